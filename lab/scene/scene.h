@@ -1,0 +1,67 @@
+#pragma once
+// A scene: triangles with plain physically based materials, named cameras, a camera path, and the boxes that light
+// distributions fill. World space, right-handed, y up.
+
+#include "lab/scene/camera.h"
+#include "lab/scene/lights.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace manylights::lab {
+
+struct Material {
+    glm::vec3 base_color{0.8f}; ///< linear, [0, 1]
+    float roughness = 0.8f;     ///< [0, 1]
+    float metallic = 0.0f;      ///< [0, 1]
+    glm::vec3 emissive{0.0f};   ///< linear radiance
+};
+
+struct Vertex {
+    glm::vec3 position;
+    glm::vec3 normal; ///< unit length
+    std::uint32_t material;
+};
+
+struct Box {
+    glm::vec3 lower{0.0f}, upper{0.0f};
+};
+
+struct Scene {
+    std::string name; ///< "canyon", or the file's path
+    std::vector<Vertex> vertices;
+    std::vector<std::uint32_t> indices; ///< three per triangle
+    std::vector<Material> materials;
+    std::vector<Camera> cameras;   ///< named; at least one; the first is the default
+    std::vector<Camera> path;      ///< the 16 fixed frames for comparisons
+    Box bounds;                    ///< of all triangles
+    Box light_box;                 ///< that the volume distribution fills
+    float view_extent = 500.0f;    ///< slice_far of the structures: the scene's view distance
+    float radius_scale_cap = 1.0f; ///< --radius auto never scales by more than this
+    std::vector<Light> lights;     ///< the scene's own (glTF KHR_lights_punctual), world space
+};
+
+/// How much of a built-in scene is built: `full` for figures and pictures, `low` stays under 20,000 triangles.
+enum class Detail { low, full };
+
+struct SceneInfo {
+    std::string name, summary;
+};
+std::vector<SceneInfo> builtin_scenes();
+
+/// A built-in scene's name, or the path of a .glb or .gltf file. Throws InputError.
+Scene load_scene(const std::string& name_or_path, Detail detail = Detail::full);
+
+/// "path:T" with T in [0, 1), or the name of a camera, or empty for the default one. Throws InputError naming the
+/// choices.
+Camera find_camera(const Scene& scene, const std::string& selector);
+
+/// World-space points that the cameras see, from a software depth buffer; the same on every machine.
+struct SurfacePoint {
+    glm::vec3 position, normal;
+};
+std::vector<SurfacePoint> visible_points(const Scene& scene, const Camera& camera, std::uint32_t width,
+                                         std::uint32_t height);
+
+} // namespace manylights::lab

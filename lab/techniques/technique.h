@@ -1,0 +1,98 @@
+#pragma once
+// A technique finds, for every shaded point, the lights that reach it. One interface for all of them, brute force
+// included, so that one harness proves and measures them alike.
+
+#include "lab/scene/scene.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace manylights::lab {
+
+namespace gpu {
+class Device;
+class Buffer;
+} // namespace gpu
+class PointBuffer; // lab/renderer/point_buffer.h: what is shaded
+
+/// What shading one pixel found. The sums of hashes identify the set of affecting lights whatever the order was; the
+/// `front` set holds those with N.L > 0. Radiance is fixed point, 2^-20, so its sum does not depend on the order
+/// either. 64 bytes, the same text as record.glsl's.
+struct PixelRecord {
+    std::uint32_t affecting, hash_a, hash_b;
+    std::uint32_t front, front_hash_a, front_hash_b;
+    std::uint32_t tested, nodes, references;
+    std::uint32_t shaded; ///< 0: sky, nothing was shaded
+    std::int64_t radiance[3];
+};
+static_assert(sizeof(PixelRecord) == 64);
+
+struct OptionInfo {
+    std::string key, meaning, values; ///< values: the range or the choices, and the default
+};
+
+struct TechniqueInfo {
+    std::string name, summary;
+    std::vector<OptionInfo> options;
+    bool needs_depth = false;
+    bool serves_translucent = true;
+    bool serves_air = true;
+    bool exact = true;
+};
+
+using OptionValues = std::vector<std::pair<std::string, std::string>>;
+
+/// One frame's input: what a renderer has at hand.
+struct Frame {
+    const Scene& scene;
+    Camera camera;
+    std::uint32_t width, height;
+    std::span<const Light> lights;
+    const PointBuffer& points; ///< on the device
+};
+
+struct TechniqueStats {
+    std::uint64_t visible_lights = 0;
+    std::uint64_t references = 0;
+    std::uint64_t structure_bytes = 0;
+    std::vector<double> build_ms; ///< of each repeat
+    std::vector<double> shade_ms;
+};
+
+/// How pixels of an image map to what kind of cell served them (figure 3 of Tiled Light Trees).
+enum class CellClass : std::uint8_t { none, list, tree, mixed };
+
+class Technique {
+  public:
+    virtual ~Technique() = default;
+    virtual const TechniqueInfo& info() const = 0;
+
+    /// Builds the frame's structures and makes them ready on the device. May be called again with another frame.
+    virtual void prepare(const Frame& frame) = 0;
+
+    /// Shades every point and hands back a record per pixel, row by row. Counters are always filled here.
+    virtual std::vector<PixelRecord> record(const Frame& frame) = 0;
+
+    /// Shades every point without counters into linear radiance, RGB floats per pixel. Repeatable; adds to shade_ms.
+    virtual std::vector<float> shade(const Frame& frame) = 0;
+
+    /// Per pixel of the image: which kind of cell a tile's pixels walk. Empty where the technique has no cells.
+    virtual std::vector<CellClass> classify(const Frame& frame) = 0;
+
+    virtual const TechniqueStats& stats() const = 0;
+
+    /// Test hook: takes one light that affects a point of this frame out of one cell of the built structure, so that a
+    /// test can watch the proof fail. False where the technique cannot.
+    virtual bool remove_one_reference(const Frame& frame) = 0;
+};
+
+std::vector<TechniqueInfo> technique_infos();
+
+/// Throws InputError: unknown technique, unknown option, value out of range; each names the choices.
+std::unique_ptr<Technique> make_technique(gpu::Device& device, const std::string& name, const OptionValues& options);
+
+} // namespace manylights::lab
