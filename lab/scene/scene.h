@@ -28,18 +28,27 @@ struct Box {
     glm::vec3 lower{0.0f}, upper{0.0f};
 };
 
+/// How the distribution `surface` treats the triangles of one material.
+struct SurfaceRule {
+    float density = 1.0f;                           ///< lights per area, relative to the other materials
+    float offset_lower = 0.0f, offset_upper = 0.0f; ///< distance of a light from its triangle, uniform in between
+};
+
 struct Scene {
     std::string name; ///< "canyon", or the file's path
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices; ///< three per triangle
     std::vector<Material> materials;
-    std::vector<Camera> cameras;   ///< named; at least one; the first is the default
-    std::vector<Camera> path;      ///< the 16 fixed frames for comparisons
-    Box bounds;                    ///< of all triangles
-    Box light_box;                 ///< that the volume distribution fills
-    float view_extent = 500.0f;    ///< slice_far of the structures: the scene's view distance
-    float radius_scale_cap = 1.0f; ///< --radius auto never scales by more than this
-    std::vector<Light> lights;     ///< the scene's own (glTF KHR_lights_punctual), world space
+    std::vector<Camera> cameras;            ///< named; at least one; the first is the default
+    std::vector<Camera> path;               ///< the 16 fixed frames for comparisons
+    Box bounds;                             ///< of all triangles
+    Box light_box;                          ///< that the volume distribution fills
+    float view_extent = 500.0f;             ///< slice_far of the structures: the scene's view distance
+    float radius_scale_cap = 1.0f;          ///< --radius auto never scales by more than this
+    std::vector<SurfaceRule> surface_rules; ///< one per material; empty: density 1 everywhere, offset a quarter radius
+    float crowding_radius = 0.0f; ///< surface lights thin out as 1 / (1 + (d / crowding_radius)^2) with the horizontal
+                                  ///< distance d from the centre of light_box; 0: not at all
+    std::vector<Light> lights;    ///< the scene's own (glTF KHR_lights_punctual), world space
 };
 
 /// How much of a built-in scene is built: `full` for figures and pictures, `low` stays under 20,000 triangles.
