@@ -34,18 +34,26 @@ struct SurfaceRule {
     float offset_lower = 0.0f, offset_upper = 0.0f; ///< distance of a light from its triangle, uniform in between
 };
 
+/// The unit radii of `--radius auto`: many small lights, few large ones, uniform between the bounds.
+struct RadiusTable {
+    float small_lower = 2.0f, small_upper = 8.0f;
+    float large_lower = 30.0f, large_upper = 80.0f;
+    float large_share = 0.0005f; ///< of all lights
+    float scale_cap = 1.0f;      ///< `auto` never scales by more than this
+};
+
 struct Scene {
     std::string name; ///< "canyon", or the file's path
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices; ///< three per triangle
     std::vector<Material> materials;
-    std::vector<Camera> cameras;            ///< named; at least one; the first is the default
-    std::vector<Camera> path;               ///< the 16 fixed frames for comparisons
-    Box bounds;                             ///< of all triangles
-    Box light_box;                          ///< that the volume distribution fills
-    float view_extent = 500.0f;             ///< slice_far of the structures: the scene's view distance
-    float radius_scale_cap = 1.0f;          ///< --radius auto never scales by more than this
-    std::vector<SurfaceRule> surface_rules; ///< one per material; empty: density 1 everywhere, offset a quarter radius
+    std::vector<Camera> cameras; ///< named; at least one; the first is the default
+    std::vector<Camera> path;    ///< the 16 fixed frames for comparisons
+    Box bounds;                  ///< of all triangles
+    Box light_box;               ///< that the volume distribution fills
+    float view_extent = 500.0f;  ///< slice_far of the structures: the scene's view distance
+    RadiusTable radii;
+    std::vector<SurfaceRule> surface_rules; ///< one per material; empty: the same density everywhere, offset by radius
     float crowding_radius = 0.0f; ///< surface lights thin out as 1 / (1 + (d / crowding_radius)^2) with the horizontal
                                   ///< distance d from the centre of light_box; 0: not at all
     std::vector<Light> lights;    ///< the scene's own (glTF KHR_lights_punctual), world space
@@ -66,9 +74,11 @@ Scene load_scene(const std::string& name_or_path, Detail detail = Detail::full);
 /// choices.
 Camera find_camera(const Scene& scene, const std::string& selector);
 
-/// World-space points that the cameras see, from a software depth buffer; the same on every machine.
+/// World-space points that the camera sees, one per pixel that is not sky, row by row, from a software depth buffer;
+/// the same on every machine. The normal is that of the triangle's first corner, turned to the camera.
 struct SurfacePoint {
     glm::vec3 position, normal;
+    std::uint32_t material;
 };
 std::vector<SurfacePoint> visible_points(const Scene& scene, const Camera& camera, std::uint32_t width,
                                          std::uint32_t height);

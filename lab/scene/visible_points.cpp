@@ -146,9 +146,10 @@ std::vector<SurfacePoint> visible_points(const Scene& scene, const Camera& camer
             const std::uint32_t triangle = buffer.triangle(x, y);
             if (triangle == DepthBuffer::kNone) continue;
             const glm::vec3 position = projection.to_world(x, y, 1.0f / buffer.inverse(x, y));
-            glm::vec3 normal = scene.vertices[scene.indices[triangle]].normal;
+            const Vertex& corner = scene.vertices[scene.indices[triangle]];
+            glm::vec3 normal = corner.normal;
             if (glm::dot(normal, position - camera.position) > 0.0f) normal = -normal;
-            points.push_back({position, normal});
+            points.push_back({position, normal, corner.material});
         }
     }
     return points;

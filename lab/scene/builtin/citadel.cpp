@@ -53,7 +53,8 @@ class Citadel {
         scene_.name = "citadel";
         scene_.light_box = {{-kHalf, 0.0f, -kHalf}, {kHalf, 180.0f, kHalf}};
         scene_.view_extent = 3500.0f;
-        scene_.radius_scale_cap = 2.0f;
+        scene_.radii.large_share = 0.01f;
+        scene_.radii.scale_cap = 2.0f;
         scene_.crowding_radius = 500.0f;
         return std::move(scene_);
     }

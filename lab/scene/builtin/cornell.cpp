@@ -38,6 +38,7 @@ Scene make_cornell(Detail) {
     set_bounds(scene);
     scene.light_box = scene.bounds;
     scene.view_extent = 30.0f;
+    scene.radii = {0.4f, 1.6f, 3.0f, 8.0f, 0.0005f, 1.0f};
     scene.cameras = {look_at("front", {0.0f, 5.0f, 13.2f}, {0.0f, 5.0f, 0.0f}),
                      look_at("low", {3.9f, 1.2f, 4.7f}, {-1.5f, 3.0f, -2.5f}),
                      look_at("high", {-4.2f, 8.8f, 4.6f}, {1.2f, 1.5f, -1.5f}),
