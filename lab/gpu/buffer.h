@@ -15,6 +15,7 @@ typedef struct VkBuffer_T* VkBuffer;
 namespace manylights::lab::gpu {
 
 class Device;
+struct Context;
 
 enum class Memory {
     device,   ///< fast for the GPU, not mapped; upload and download go through a staging buffer
@@ -29,6 +30,8 @@ class Buffer {
   public:
     /// name: what the buffer is for, in messages. Throws DeviceError that names the size and the limit.
     Buffer(Device& device, std::string name, std::uint64_t bytes, Memory memory = Memory::device);
+
+    Buffer(std::shared_ptr<Context> context, std::string name, std::uint64_t bytes, Memory memory);
 
     /// A buffer with these elements.
     template <typename T>

@@ -25,6 +25,7 @@ typedef struct VkCommandBuffer_T* VkCommandBuffer;
 namespace manylights::lab::gpu {
 
 class Device;
+struct Context;
 
 /// A buffer, or a part of it, as a shader sees it. The offset must be a multiple of 256 (the largest alignment that
 /// Vulkan allows a device to ask for).
@@ -37,6 +38,7 @@ struct Binding {
 class Commands {
   public:
     explicit Commands(Device& device);
+    explicit Commands(std::shared_ptr<Context> context);
     ~Commands();
     Commands(const Commands&) = delete;
     Commands& operator=(const Commands&) = delete;

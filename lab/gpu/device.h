@@ -18,7 +18,6 @@ struct DeviceInfo {
     std::string name;    ///< e.g. "llvmpipe (LLVM 15.0.6, 256 bits)"
     std::string driver;  ///< e.g. "llvmpipe"
     std::string version; ///< of the driver, in its own words, e.g. "Mesa 25.0.7-2~bpo12+1 (LLVM 15.0.6)"
-    std::uint32_t driver_version = 0;
     bool is_software = false;
     std::uint64_t max_storage_buffer_range = 0; ///< bytes of one binding
     std::uint64_t max_allocation = 0;           ///< bytes of one memory allocation
