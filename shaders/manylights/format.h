@@ -37,7 +37,8 @@ struct MlUint4 {
 };
 ML_FN float ml_as_float(MlUint bits) { return std::bit_cast<float>(bits); }
 #define ML_PRECISE
-#elif defined(GL_core_profile) || defined(VULKAN) || defined(GL_ES)
+// GLSL. The HLSL front end of glslang and glslc declares GL_core_profile as well: there, define ML_HLSL first.
+#elif !defined(ML_HLSL) && (defined(GL_core_profile) || defined(GL_ES))
 #define ML_FN
 #define ML_IN(type) type
 #define ML_INOUT(type) inout type
@@ -123,10 +124,10 @@ ML_FN MlUint ml_node_skip_count(MlUint bits) { return bits & ML_NODE_SKIP_MAX; }
 // The membership rule, and the only one: does this light's sphere contain this point? Both positions are relative to
 // the camera: world position minus camera position, each difference rounded once to float. Strict, so a point on the
 // surface is outside; no contraction to fused multiply-adds, so that every processor decides alike.
-ML_FN bool ml_affects(MlFloat3 point, MlFloat3 center, float range) {
-    ML_PRECISE float x = point.x - center.x;
-    ML_PRECISE float y = point.y - center.y;
-    ML_PRECISE float z = point.z - center.z;
+ML_FN bool ml_affects(MlFloat3 position, MlFloat3 center, float range) {
+    ML_PRECISE float x = position.x - center.x;
+    ML_PRECISE float y = position.y - center.y;
+    ML_PRECISE float z = position.z - center.z;
     ML_PRECISE float squared_distance = x * x + y * y + z * z;
     ML_PRECISE float squared_range = range * range;
     return squared_distance < squared_range;
