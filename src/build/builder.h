@@ -1,0 +1,43 @@
+#pragma once
+// What a builder keeps between calls: its settings, and the memory and results of the last plan.
+
+#include "src/build/bin.h"
+#include "src/build/cull.h"
+#include "src/build/decide.h"
+#include "src/build/settings.h"
+#include "src/build/slices.h"
+#include "src/build/sort.h"
+#include "src/build/tree.h"
+#include "src/format/layout.h"
+
+struct ManylightsBuilder {
+    manylights::detail::Settings settings;
+    manylights::detail::Slices slices;
+
+    manylights::detail::View views[manylights::detail::kMaxViews];
+    manylights::detail::Grid grids[manylights::detail::kMaxViews];
+    std::uint32_t view_count = 0;
+    bool planned = false;
+
+    manylights::detail::Array<manylights::detail::SortItem> sort_items[2];
+    manylights::detail::Array<manylights::detail::VisibleLight> sorted; // of all views, one after the other
+    manylights::detail::Bins bins;
+    manylights::detail::CellNodes nodes;
+    manylights::detail::Array<manylights::detail::DepthSpan> heaps; // one per task of write
+    std::uint32_t task_count = 1;
+
+    manylights::detail::Array<std::uint32_t> validate_marks;
+
+    manylights::detail::Counts counts{};
+    ManylightsStats stats{};
+};
+
+namespace manylights::detail {
+
+// Sorting to node offsets: coarsens until the result fits, and fills counts and stats. The lights are culled already.
+Outcome arrange(ManylightsBuilder& builder);
+
+// The buffers of the last plan, into the caller's memory.
+void write_buffers(ManylightsBuilder& builder, const ManylightsBuffers& buffers);
+
+} // namespace manylights::detail

@@ -1,0 +1,41 @@
+#include "src/format/layout.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace manylights::detail {
+
+TreeShape tree_shape(std::uint32_t light_count, std::uint32_t leaf_size) {
+    const std::uint32_t smallest_leaf = divide_up(light_count, kMaxLeaves);
+    const std::uint32_t lights_per_leaf = std::max(leaf_size, smallest_leaf);
+    const std::uint32_t leaf_count = std::bit_ceil(divide_up(light_count, lights_per_leaf));
+    return {leaf_count, divide_up(light_count, leaf_count)};
+}
+
+std::uint64_t tree_node_count(std::uint32_t light_count, std::uint32_t leaf_size) {
+    std::uint64_t nodes = 0;
+    while (light_count > 0) {
+        const std::uint32_t here = std::min(light_count, kMaxTreeLights);
+        nodes += tree_shape(here, leaf_size).node_count();
+        light_count -= here;
+    }
+    return nodes;
+}
+
+MlUint pack_leaf(std::uint32_t light_count) { return ML_NODE_LEAF | (light_count << ML_NODE_COUNT_SHIFT) | 1u; }
+
+MlUint pack_inner(std::uint64_t light_count, std::uint32_t skip) {
+    const auto saturated = static_cast<std::uint32_t>(std::min<std::uint64_t>(light_count, ML_NODE_COUNT_MAX));
+    return (saturated << ML_NODE_COUNT_SHIFT) | skip;
+}
+
+ManylightsSizes sizes_of(const Counts& counts) {
+    return {counts.views * sizeof(MlView), counts.slice_edges * sizeof(float), counts.cells * sizeof(MlCell),
+            counts.nodes * sizeof(MlNode), counts.references * sizeof(MlUint)};
+}
+
+std::uint64_t total_bytes(const ManylightsSizes& sizes) {
+    return sizes.views + sizes.slice_edges + sizes.cells + sizes.nodes + sizes.references;
+}
+
+} // namespace manylights::detail
