@@ -2,6 +2,7 @@
 
 #include "lab/scene/builtin/builtin.h"
 #include "lab/scene/error.h"
+#include "lab/scene/gltf/load.h"
 
 #include <charconv>
 
@@ -62,8 +63,7 @@ Scene load_scene(const std::string& name_or_path, Detail detail) {
         if (name_or_path == builtin.name) return builtin.make(detail);
         names += std::string(builtin.name) + ", ";
     }
-    if (ends_with(name_or_path, ".glb") || ends_with(name_or_path, ".gltf"))
-        throw InputError("scene \"" + name_or_path + "\": cannot be read");
+    if (ends_with(name_or_path, ".glb") || ends_with(name_or_path, ".gltf")) return load_gltf(name_or_path);
     throw InputError("scene \"" + name_or_path + "\": must be one of " + names + "or the path of a .glb or .gltf file");
 }
 

@@ -93,8 +93,15 @@ class Canyon {
         for (int stratum = 0; stratum < top; ++stratum) {
             unsigned exposed = 0;
             for (unsigned side = 0; side < 4; ++side) exposed |= around[side] <= stratum ? 1u << side : 0u;
-            if (exposed != 0 || stratum == top - 1) add_stratum(i, k, stratum, exposed);
+            if (exposed != 0 || stratum == top - 1 || is_corner(i, k, stratum)) add_stratum(i, k, stratum, exposed);
         }
+    }
+
+    /// Free diagonally: seen through the gap between the two drawn-in neighbours.
+    bool is_corner(int i, int k, int stratum) const {
+        if (detail_ == Detail::low) return false;
+        return std::min({level(i - 1, k - 1), level(i + 1, k - 1), level(i - 1, k + 1), level(i + 1, k + 1)}) <=
+               stratum;
     }
 
     void add_stratum(int i, int k, int stratum, unsigned exposed) {
