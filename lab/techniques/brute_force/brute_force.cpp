@@ -1,0 +1,66 @@
+#include "lab/techniques/brute_force/brute_force.h"
+
+#include "lab/techniques/options.h"
+#include "lab/techniques/shading_pass.h"
+
+#include <optional>
+
+namespace manylights::lab {
+
+namespace {
+
+constexpr std::uint32_t kRecordCode[] =
+#include "brute_force_record.comp.inc"
+    ;
+constexpr std::uint32_t kShadeCode[] =
+#include "brute_force_shade.comp.inc"
+    ;
+
+class BruteForce : public Technique {
+  public:
+    BruteForce(gpu::Device& device, const OptionValues& options)
+        : device_(device), info_(brute_force_info()),
+          pass_(device, {info_.name, kRecordCode, kShadeCode, 0}, LightSplit::bounded) {
+        const OptionReader checked(info_, options);
+    }
+
+    const TechniqueInfo& info() const override { return info_; }
+
+    void prepare(const Frame& frame) override {
+        lights_.emplace(device_, frame);
+        stats_.visible_lights = frame.lights.size();
+        stats_.build_ms.push_back(0.0);
+    }
+
+    std::vector<PixelRecord> record(const Frame& frame) override { return pass_.record(frame, lights_.value(), {}); }
+
+    std::vector<float> shade(const Frame& frame) override {
+        return pass_.shade(frame, lights_.value(), {}, stats_.shade_ms);
+    }
+
+    std::vector<CellClass> classify(const Frame&) override { return {}; }
+    const TechniqueStats& stats() const override { return stats_; }
+    bool remove_one_reference(const Frame&) override { return false; }
+
+  private:
+    gpu::Device& device_;
+    TechniqueInfo info_;
+    std::optional<FrameLights> lights_;
+    ShadingPass pass_;
+    TechniqueStats stats_;
+};
+
+} // namespace
+
+TechniqueInfo brute_force_info() {
+    TechniqueInfo info;
+    info.name = "brute_force";
+    info.summary = "every light for every point: what is right";
+    return info;
+}
+
+std::unique_ptr<Technique> make_brute_force(gpu::Device& device, const OptionValues& options) {
+    return std::make_unique<BruteForce>(device, options);
+}
+
+} // namespace manylights::lab

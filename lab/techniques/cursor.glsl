@@ -1,0 +1,32 @@
+// Shading through the library's query: the same text for every structure that has the library's format.
+#include "lab/techniques/shading_pass.glsl"
+
+layout(std430, set = 0, binding = 6) readonly buffer Views { MlView d[]; } views;
+layout(std430, set = 0, binding = 7) readonly buffer SliceEdges { float d[]; } slice_edges;
+layout(std430, set = 0, binding = 8) readonly buffer Cells { MlCell d[]; } cells;
+layout(std430, set = 0, binding = 9) readonly buffer Nodes { uvec4 d[]; } nodes;
+layout(std430, set = 0, binding = 10) readonly buffer References { uint d[]; } references;
+
+#define ML_SLICE_EDGE(i) slice_edges.d[i]
+#define ML_CELL(i) cells.d[i]
+#define ML_NODE(i) ml_node_from_words(nodes.d[i])
+#define ML_REFERENCE(i) references.d[i]
+#include <manylights/query.h>
+
+void main() {
+    Pixel pixel = begin_pixel(true);
+    if (pixel.is_shaded) {
+        MlCursor cursor = ml_begin(views.d[0], vec2(pixel.coordinates) + 0.5, pixel.depth);
+        uint light;
+        while (ml_next(cursor, light)) {
+            vec4 sphere = spheres.d[light];
+            if (ml_affects(pixel.surface.position, sphere.xyz, sphere.w)) shade_light(pixel, light, sphere);
+        }
+#if defined(MANYLIGHTS_RECORD)
+        pixel.record.tested = cursor.tested;
+        pixel.record.nodes = cursor.nodes;
+        pixel.record.references = cursor.references;
+#endif
+    }
+    end_pixel(pixel);
+}

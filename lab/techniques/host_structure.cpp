@@ -1,0 +1,85 @@
+#include "lab/techniques/host_structure.h"
+
+#include "lab/renderer/point_buffer.h"
+
+namespace manylights::lab {
+
+namespace {
+
+// The query's text inside a class whose members its accessors name.
+struct Query {
+    const HostStructure& structure;
+#define ML_SLICE_EDGE(i) structure.slice_edges[i]
+#define ML_CELL(i) structure.cells[i]
+#define ML_NODE(i) structure.nodes[i]
+#define ML_REFERENCE(i) structure.references[i]
+#include <manylights/query.h>
+};
+
+MlFloat2 pixel_center(const MlView& view, std::size_t pixel) {
+    return {static_cast<float>(pixel % view.width) + 0.5f, static_cast<float>(pixel / view.width) + 0.5f};
+}
+
+// A tree's root is an inner node. A list is a run of leaves: one, unless it has more than 65,535 lights.
+CellClass class_of(const HostStructure& structure, const MlCell& cell) {
+    if (cell.count == 0) return CellClass::none;
+    if (structure.view.structure == ML_STRUCTURE_LISTS) return CellClass::list;
+    return ml_node_is_leaf(structure.nodes[cell.first].bits) ? CellClass::list : CellClass::tree;
+}
+
+CellClass joined(CellClass a, CellClass b) {
+    if (a == CellClass::none) return b;
+    return b == CellClass::none || b == a ? a : CellClass::mixed;
+}
+
+std::optional<std::uint64_t> affecting_reference_of(Query& query, std::size_t pixel, const PointPosition& point,
+                                                    const LightStream& lights) {
+    const MlFloat3 position{point.position.x, point.position.y, point.position.z};
+    const MlView& view = query.structure.view;
+    Query::MlCursor cursor = query.ml_begin(view, pixel_center(view, pixel), point.depth);
+    MlUint light = 0;
+    while (query.ml_next(cursor, light)) {
+        const glm::vec4& sphere = lights.spheres[light];
+        if (ml_affects(position, {sphere.x, sphere.y, sphere.z}, sphere.w)) return cursor.reference - 1u;
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+HostStructure::HostStructure(const StructureBuffers& buffers)
+    : view(buffers.host_copy<MlView>(0).at(0)), slice_edges(buffers.host_copy<float>(1)),
+      cells(buffers.host_copy<MlCell>(2)), nodes(buffers.host_copy<MlNode>(3)),
+      references(buffers.host_copy<std::uint32_t>(4)) {}
+
+std::vector<CellClass> classify_tiles(const HostStructure& structure, std::span<const PointPosition> points) {
+    const MlView& view = structure.view;
+    const auto tile_of = [&view](std::size_t pixel) {
+        const std::size_t x = pixel % view.width, y = pixel / view.width;
+        return y / view.tile_px * view.tiles_x + x / view.tile_px;
+    };
+    Query query{structure};
+    std::vector<CellClass> tiles(std::size_t{view.tiles_x} * view.tiles_y, CellClass::none);
+    for (std::size_t pixel = 0; pixel < points.size(); ++pixel) {
+        if (points[pixel].depth == 0.0f) continue;
+        const MlUint cell = query.ml_cell_index(view, pixel_center(view, pixel), points[pixel].depth);
+        CellClass& tile = tiles[tile_of(pixel)];
+        tile = joined(tile, class_of(structure, structure.cells[cell]));
+    }
+    std::vector<CellClass> classes(points.size());
+    for (std::size_t pixel = 0; pixel < points.size(); ++pixel) classes[pixel] = tiles[tile_of(pixel)];
+    return classes;
+}
+
+std::optional<std::uint64_t> find_affecting_reference(const HostStructure& structure,
+                                                      std::span<const PointPosition> points,
+                                                      const LightStream& lights) {
+    Query query{structure};
+    for (std::size_t pixel = 0; pixel < points.size(); ++pixel) {
+        if (points[pixel].depth == 0.0f) continue;
+        if (auto reference = affecting_reference_of(query, pixel, points[pixel], lights)) return reference;
+    }
+    return std::nullopt;
+}
+
+} // namespace manylights::lab

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "lab/techniques/structure_technique.h"
+
+namespace manylights::lab {
+
+TechniqueInfo hybrid_light_trees_info();
+std::unique_ptr<Technique> make_hybrid_light_trees(gpu::Device& device, const OptionValues& options);
+
+} // namespace manylights::lab

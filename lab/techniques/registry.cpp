@@ -1,0 +1,43 @@
+// All techniques: one line each.
+
+#include "lab/scene/error.h"
+#include "lab/techniques/brute_force/brute_force.h"
+#include "lab/techniques/clustered/clustered.h"
+#include "lab/techniques/hybrid_light_trees/hybrid_light_trees.h"
+#include "lab/techniques/tiled_light_trees/tiled_light_trees.h"
+
+namespace manylights::lab {
+
+namespace {
+
+struct Entry {
+    TechniqueInfo (*info)();
+    std::unique_ptr<Technique> (*make)(gpu::Device& device, const OptionValues& options);
+};
+
+constexpr Entry kTechniques[] = {
+    {brute_force_info, make_brute_force},
+    {clustered_info, make_clustered},
+    {tiled_light_trees_info, make_tiled_light_trees},
+    {hybrid_light_trees_info, make_hybrid_light_trees},
+};
+
+} // namespace
+
+std::vector<TechniqueInfo> technique_infos() {
+    std::vector<TechniqueInfo> infos;
+    for (const Entry& entry : kTechniques) infos.push_back(entry.info());
+    return infos;
+}
+
+std::unique_ptr<Technique> make_technique(gpu::Device& device, const std::string& name, const OptionValues& options) {
+    std::string names;
+    for (const Entry& entry : kTechniques) {
+        const std::string entry_name = entry.info().name;
+        if (entry_name == name) return entry.make(device, options);
+        names += (names.empty() ? "" : ", ") + entry_name;
+    }
+    throw InputError("unknown technique '" + name + "'; the techniques are " + names);
+}
+
+} // namespace manylights::lab

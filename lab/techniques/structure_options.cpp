@@ -1,0 +1,81 @@
+#include "lab/techniques/structure_options.h"
+
+#include "lab/scene/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace manylights::lab {
+
+namespace {
+
+constexpr const char* kProducers[] = {"library", "paper"};
+constexpr const char* kListing4[] = {"corrected", "printed"};
+constexpr const char* kSortKeys[] = {"centre", "near"};
+// In the order of paper::Heuristic: "e" always makes trees, "lists" never does.
+constexpr const char* kHeuristics[] = {"a", "b", "c", "d", "e", "lists"};
+
+bool has_slices(StructureKind kind) { return kind != StructureKind::trees; }
+bool has_trees(StructureKind kind) { return kind != StructureKind::lists; }
+
+// The paper's switches: the library has one setting of each.
+void refuse_papers_switches(const TechniqueInfo& info, const OptionReader& reader) {
+    for (const char* key : {"heuristic", "listing4", "sort_key"})
+        if (reader.given(key)) throw InputError(fmt::format("{}: option {} needs producer=paper", info.name, key));
+}
+
+} // namespace
+
+std::vector<OptionInfo> structure_option_infos(StructureKind kind) {
+    std::vector<OptionInfo> infos{{"tile_size", "edge of a tile in pixels", "8 to 4096, default 48"}};
+    if (has_slices(kind)) {
+        infos.push_back({"slice_count", "depth slices", "1 to 128, default 16"});
+        infos.push_back({"slice_near", "end of the first slice", "above 0, default 5, at most a tenth of slice_far"});
+        infos.push_back(
+            {"slice_far", "start of the last, open slice's depths", "above slice_near, default the scene's"});
+    }
+    if (has_trees(kind)) infos.push_back({"leaf_size", "most lights in a leaf", "1 to 65535, default 4"});
+    infos.push_back({"producer", "who builds the structure", "library (default) or paper"});
+    if (kind == StructureKind::hybrid)
+        infos.push_back({"heuristic", "list or tree, with producer=paper",
+                         "a (default), b, c, d, e (always a tree), lists (never one)"});
+    if (has_slices(kind))
+        infos.push_back({"listing4", "slice formula, with producer=paper", "corrected (default) or printed"});
+    if (has_trees(kind))
+        infos.push_back(
+            {"sort_key", "depth that lights are sorted by, with producer=paper", "centre (default) or near"});
+    return infos;
+}
+
+StructureOptions read_structure_options(const TechniqueInfo& info, StructureKind kind, const OptionValues& values) {
+    const OptionReader reader(info, values);
+    StructureOptions options;
+    options.kind = kind;
+    options.tile_size = reader.whole_number("tile_size", options.tile_size, 8, 4096);
+    options.slice_count = reader.whole_number("slice_count", options.slice_count, 1, 128);
+    options.leaf_size = reader.whole_number("leaf_size", options.leaf_size, 1, 65535);
+    options.slice_near = reader.positive_number("slice_near");
+    options.slice_far = reader.positive_number("slice_far");
+    options.producer = static_cast<ProducerKind>(reader.choice("producer", kProducers));
+    if (options.producer == ProducerKind::library) refuse_papers_switches(info, reader);
+    options.heuristic = static_cast<paper::Heuristic>(reader.choice("heuristic", kHeuristics));
+    options.slice_formula = static_cast<paper::SliceFormula>(reader.choice("listing4", kListing4));
+    options.sort_key = static_cast<paper::SortKey>(reader.choice("sort_key", kSortKeys));
+    if (options.slice_near && options.slice_far && !(*options.slice_near < *options.slice_far))
+        throw InputError(fmt::format("{}: option slice_near={}: must be below slice_far={}", info.name,
+                                     *options.slice_near, *options.slice_far));
+    return options;
+}
+
+SliceRange slice_range(const StructureOptions& options, const Scene& scene) {
+    const float far_edge = options.slice_far.value_or(scene.view_extent);
+    const float near_edge = options.slice_near.value_or(std::min(5.0f, 0.1f * far_edge));
+    if (!(near_edge < far_edge))
+        throw InputError(fmt::format("option slice_near={}: must be below slice_far={}, the view distance of the scene "
+                                     "unless slice_far is set",
+                                     near_edge, far_edge));
+    return {near_edge, far_edge};
+}
+
+} // namespace manylights::lab

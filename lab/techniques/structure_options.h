@@ -1,0 +1,36 @@
+#pragma once
+// The options that the structures of the library's format share.
+
+#include "lab/techniques/options.h"
+#include "reference/paper/options.h"
+
+namespace manylights::lab {
+
+enum class StructureKind { lists, trees, hybrid };
+enum class ProducerKind { library, paper };
+
+struct StructureOptions {
+    StructureKind kind = StructureKind::hybrid;
+    ProducerKind producer = ProducerKind::library;
+    std::uint32_t tile_size = 48;
+    std::uint32_t slice_count = 16;
+    std::uint32_t leaf_size = 4;
+    std::optional<float> slice_near, slice_far;                         ///< empty: by the scene, see slice_range
+    paper::Heuristic heuristic = paper::Heuristic::clipped_half_extent; ///< these three: only with the paper's producer
+    paper::SliceFormula slice_formula = paper::SliceFormula::corrected;
+    paper::SortKey sort_key = paper::SortKey::center_depth;
+};
+
+std::vector<OptionInfo> structure_option_infos(StructureKind kind);
+
+/// Throws InputError.
+StructureOptions read_structure_options(const TechniqueInfo& info, StructureKind kind, const OptionValues& values);
+
+struct SliceRange {
+    float near_edge, far_edge;
+};
+/// The exponential slices' range: far is the scene's view distance, near 5 (O'Donnell and Chajdas, section 4) or a
+/// tenth of far where that is less. Throws InputError where near is not below far.
+SliceRange slice_range(const StructureOptions& options, const Scene& scene);
+
+} // namespace manylights::lab

@@ -1,0 +1,37 @@
+#pragma once
+// A technique whose structure has the library's format: a producer on the CPU, the common shading pass with the
+// library's query. The three techniques of this kind differ in their options and in what the producer builds.
+
+#include "lab/techniques/shading_pass.h"
+#include "lab/techniques/structure_buffers.h"
+
+#include <optional>
+
+namespace manylights::lab {
+
+class StructureTechnique : public Technique {
+  public:
+    StructureTechnique(gpu::Device& device, TechniqueInfo info, StructureKind kind, const OptionValues& values);
+
+    const TechniqueInfo& info() const override { return info_; }
+    void prepare(const Frame& frame) override;
+    std::vector<PixelRecord> record(const Frame& frame) override;
+    std::vector<float> shade(const Frame& frame) override;
+    std::vector<CellClass> classify(const Frame& frame) override;
+    const TechniqueStats& stats() const override { return stats_; }
+    bool remove_one_reference(const Frame& frame) override;
+
+  private:
+    gpu::Device& device_;
+    TechniqueInfo info_;
+    std::unique_ptr<Producer> producer_;
+    StructureBuffers buffers_;
+    std::optional<FrameLights> lights_;
+    ShadingPass pass_;
+    TechniqueStats stats_;
+};
+
+/// What the infos of the three have in common: no depth needed, every kind of surface served.
+TechniqueInfo structure_technique_info(const char* name, const char* summary, StructureKind kind);
+
+} // namespace manylights::lab

@@ -1,0 +1,120 @@
+#include "tests/parity/techniques_fixture.h"
+
+#include "lab/scene/error.h"
+#include "reference/oracle/random.h"
+
+#include <cstdio>
+
+namespace manylights::lab {
+
+namespace {
+
+struct SharedDevice {
+    std::unique_ptr<gpu::Device> device;
+    std::string reason; ///< why there is none
+};
+
+SharedDevice open_device() {
+    SharedDevice shared;
+    try {
+        shared.device = std::make_unique<gpu::Device>(gpu::DeviceOptions{"", true});
+        std::printf("device %s, %s; core and synchronization validation by %s\n", shared.device->info().name.c_str(),
+                    shared.device->info().version.c_str(), shared.device->validation_layer().c_str());
+    } catch (const DeviceError& error) {
+        shared.reason = error.what();
+    }
+    return shared;
+}
+
+SharedDevice& shared_device() {
+    static SharedDevice shared = open_device();
+    return shared;
+}
+
+PointPosition made_position(const CameraBasis& basis, std::uint32_t width, std::uint32_t height, std::size_t pixel,
+                            oracle::Random& random) {
+    const float x = (2.0f * (static_cast<float>(pixel % width) + 0.5f) / static_cast<float>(width) - 1.0f);
+    const float y = (1.0f - 2.0f * (static_cast<float>(pixel / width) + 0.5f) / static_cast<float>(height));
+    const float depth = static_cast<float>(random.octaves(-2, 9));
+    if (random.chance(0.125)) return {glm::vec3(0.0f), 0.0f};
+    const glm::vec3 ray = basis.forward + basis.right * (x * basis.tan_half_x) + basis.up * (y * basis.tan_half_y);
+    return {ray * depth, depth};
+}
+
+PointNormal made_normal(oracle::Random& random) {
+    const oracle::Double3 direction = random.direction();
+    return {glm::vec3(direction.x, direction.y, direction.z), random.below(2)};
+}
+
+Light made_light(const View& view, oracle::Random& random) {
+    const PointPosition& point = view.positions[random.below(static_cast<std::uint32_t>(view.positions.size()))];
+    const double range = 0.02 * (1.0 + double(point.depth)) * random.octaves(0, 3);
+    const oracle::Double3 offset = random.direction() * (range * random.unit() * 1.1);
+    const glm::vec3 center = view.camera.position + point.position + glm::vec3(offset.x, offset.y, offset.z);
+    Light light;
+    light.sphere = {{center.x, center.y, center.z}, static_cast<float>(range)};
+    for (float& channel : light.color) channel = static_cast<float>(random.between(0.1, 1.0) * range * range);
+    return light;
+}
+
+Scene made_scene() {
+    Scene scene;
+    scene.name = "made";
+    scene.view_extent = 500.0f;
+    return scene;
+}
+
+Camera made_camera() {
+    Camera camera;
+    camera.position = {12.3f, 4.5f, -67.8f};
+    camera.forward = {0.6f, 0.0f, -0.8f};
+    return camera;
+}
+
+} // namespace
+
+void TechniquesTest::SetUp() {
+    if (!shared_device().device) GTEST_SKIP() << shared_device().reason;
+    device_ = shared_device().device.get();
+    ASSERT_TRUE(device_->validation_active());
+}
+
+void TechniquesTest::TearDown() {
+    if (device_ == nullptr) return;
+    EXPECT_EQ(device_->validation_messages(), 0u);
+}
+
+View made_view(gpu::Device& device, std::uint32_t width, std::uint32_t height, std::uint32_t light_count) {
+    const std::vector<MaterialRecord> materials{{glm::vec3(0.8f, 0.5f, 0.3f), 0.6f, glm::vec3(0.0f), 0.0f},
+                                                {glm::vec3(0.9f), 0.2f, glm::vec3(0.1f, 0.0f, 0.2f), 1.0f}};
+    View view{made_scene(), made_camera(), width, height, {}, {}, {}, PointBuffer(device, width, height, materials)};
+    oracle::Random random(std::uint64_t{width} * 65537 + height);
+    const CameraBasis basis = camera_basis(view.camera, width, height);
+    for (std::size_t pixel = 0; pixel < std::size_t{width} * height; ++pixel) {
+        view.positions.push_back(made_position(basis, width, height, pixel, random));
+        view.normals.push_back(made_normal(random));
+    }
+    for (std::uint32_t i = 0; i < light_count; ++i) view.lights.push_back(made_light(view, random));
+    view.points.positions().upload(view.positions);
+    view.points.normals().upload(view.normals);
+    return view;
+}
+
+void PrintTo(const Variant& variant, std::ostream* out) { *out << variant.label; }
+
+std::vector<Variant> structure_variants() {
+    return {{"clustered", "clustered", {}},
+            {"tiled_light_trees", "tiled_light_trees", {}},
+            {"hybrid_light_trees", "hybrid_light_trees", {}},
+            {"clustered_paper", "clustered", {{"producer", "paper"}}},
+            {"tiled_light_trees_paper", "tiled_light_trees", {{"producer", "paper"}}},
+            {"hybrid_light_trees_paper", "hybrid_light_trees", {{"producer", "paper"}}}};
+}
+
+std::vector<PixelRecord> records_of(gpu::Device& device, const Variant& variant, const Frame& frame) {
+    const std::unique_ptr<Technique> technique = make_technique(device, variant.technique, variant.options);
+    technique->prepare(frame);
+    return technique->record(frame);
+}
+
+} // namespace manylights::lab

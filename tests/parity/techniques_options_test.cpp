@@ -1,0 +1,84 @@
+// Options that do not fit are refused in one line that names the key, the value and what is allowed.
+
+#include "lab/scene/error.h"
+#include "lab/techniques/structure_options.h"
+#include "tests/parity/techniques_fixture.h"
+
+#include <algorithm>
+
+namespace manylights::lab {
+
+namespace {
+
+std::string refusal(gpu::Device& device, const char* technique, const OptionValues& options) {
+    try {
+        make_technique(device, technique, options);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+void expect_words(const std::string& message, const std::vector<std::string>& words) {
+    for (const std::string& word : words)
+        EXPECT_NE(message.find(word), std::string::npos) << "'" << word << "' is not in '" << message << "'";
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+}
+
+} // namespace
+
+TEST_F(TechniquesTest, unknown_technique_names_the_choices) {
+    const std::string message = refusal(device(), "magic", {});
+    expect_words(message, {"magic", "brute_force", "clustered", "tiled_light_trees", "hybrid_light_trees"});
+}
+
+TEST_F(TechniquesTest, unknown_option_names_the_keys) {
+    expect_words(refusal(device(), "clustered", {{"leaf_size", "4"}}),
+                 {"clustered", "leaf_size", "tile_size", "producer"});
+    expect_words(refusal(device(), "tiled_light_trees", {{"slice_count", "4"}}), {"slice_count", "leaf_size"});
+    expect_words(refusal(device(), "brute_force", {{"tile_size", "48"}}), {"brute_force", "tile_size"});
+}
+
+TEST_F(TechniquesTest, values_out_of_range_name_the_range) {
+    for (const char* value : {"7", "4097", "0", "-1", "48px", "", "99999999999", "1e2"})
+        expect_words(refusal(device(), "clustered", {{"tile_size", value}}), {"tile_size", "8", "4096"});
+    for (const char* value : {"0", "129"})
+        expect_words(refusal(device(), "hybrid_light_trees", {{"slice_count", value}}), {"slice_count", "1", "128"});
+    for (const char* value : {"0", "65536"})
+        expect_words(refusal(device(), "tiled_light_trees", {{"leaf_size", value}}), {"leaf_size", "1", "65535"});
+    for (const char* value : {"0", "-5", "nan", "inf", "far"})
+        expect_words(refusal(device(), "clustered", {{"slice_near", value}}), {"slice_near", value});
+    expect_words(refusal(device(), "clustered", {{"producer", "magic"}}), {"producer", "magic", "library", "paper"});
+    const OptionValues heuristic{{"producer", "paper"}, {"heuristic", "f"}};
+    expect_words(refusal(device(), "hybrid_light_trees", heuristic), {"heuristic", "f", "a, b, c, d, e, lists"});
+}
+
+TEST_F(TechniquesTest, options_that_contradict_each_other_are_refused) {
+    expect_words(refusal(device(), "clustered", {{"slice_near", "9"}, {"slice_far", "9"}}),
+                 {"slice_near", "slice_far"});
+    expect_words(refusal(device(), "clustered", {{"tile_size", "16"}, {"tile_size", "32"}}), {"tile_size", "twice"});
+    expect_words(refusal(device(), "hybrid_light_trees", {{"heuristic", "a"}}), {"heuristic", "producer=paper"});
+}
+
+TEST(Techniques, infos_name_every_technique_and_their_options) {
+    const std::vector<TechniqueInfo> infos = technique_infos();
+    ASSERT_EQ(infos.size(), 4u);
+    EXPECT_EQ(infos[0].name, "brute_force");
+    for (const TechniqueInfo& info : infos) EXPECT_FALSE(info.summary.empty());
+    EXPECT_TRUE(
+        std::ranges::any_of(infos[3].options, [](const OptionInfo& option) { return option.key == "leaf_size"; }));
+}
+
+TEST(Techniques, slices_follow_the_scene) {
+    Scene scene;
+    scene.view_extent = 500.0f;
+    EXPECT_EQ(slice_range({}, scene).near_edge, 5.0f);
+    EXPECT_EQ(slice_range({}, scene).far_edge, 500.0f);
+    scene.view_extent = 3.0f;
+    EXPECT_LT(slice_range({}, scene).near_edge, slice_range({}, scene).far_edge);
+    StructureOptions options;
+    options.slice_near = 4.0f;
+    EXPECT_THROW(slice_range(options, scene), InputError);
+}
+
+} // namespace manylights::lab
