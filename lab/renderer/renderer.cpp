@@ -44,8 +44,14 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene)
 Renderer::~Renderer() = default;
 
 PointBuffer Renderer::render_points(const Camera& camera, std::uint32_t width, std::uint32_t height) {
+    PointBuffer points(state_->device, width, height, state_->scene.materials);
+    render_points(camera, points);
+    return points;
+}
+
+void Renderer::render_points(const Camera& camera, PointBuffer& target) {
     gpu::Device& device = state_->device;
-    PointBuffer result(device, width, height, state_->scene.materials);
+    const std::uint32_t width = target.width(), height = target.height();
     const std::uint32_t limit = device.info().max_image_size;
     if (width > limit || height > limit)
         throw DeviceError("image size " + std::to_string(width) + "x" + std::to_string(height) + ": the device " +
@@ -54,12 +60,11 @@ PointBuffer Renderer::render_points(const Camera& camera, std::uint32_t width, s
     const CameraAxes axes = camera_axes(camera, width, height);
 
     gpu::Commands commands(device);
-    state_->gbuffer.record(commands, state_->scene, axes, width, height, depths, result.normals());
+    state_->gbuffer.record(commands, state_->scene, axes, width, height, depths, target.normals());
     commands.barrier();
-    commands.dispatch(state_->points, {{depths}, {result.positions()}}, PointsPush{axes, width, height},
+    commands.dispatch(state_->points, {{depths}, {target.positions()}}, PointsPush{axes, width, height},
                       {gpu::group_count(width, 8), gpu::group_count(height, 8), 1});
     commands.submit_and_wait("drawing the scene's points");
-    return result;
 }
 
 } // namespace manylights::lab

@@ -24,6 +24,9 @@ class Renderer {
     /// position is computed from the pixel and that depth by one function, so all techniques shade the same points.
     PointBuffer render_points(const Camera& camera, std::uint32_t width, std::uint32_t height);
 
+    /// The same into points made earlier; every byte of the positions and normals is written.
+    void render_points(const Camera& camera, PointBuffer& target);
+
   private:
     struct State;
     std::unique_ptr<State> state_;
