@@ -1,0 +1,51 @@
+#pragma once
+// What the papers vary. "TLT" is O'Donnell and Chajdas, Tiled Light Trees, I3D 2017; "slides" its talk; "demo" the
+// program that its authors published. The defaults are the paper's configuration, read exactly.
+
+#include <cstdint>
+
+namespace manylights::paper {
+
+enum class Structure : std::uint32_t {
+    clustered, ///< lists per cell of a tile x slice grid: Persson 2013, the paper's baseline (TLT section 4)
+    tree,      ///< one light tree per tile (TLT sections 3.1 and 3.2)
+    hybrid     ///< per cell a list or a light tree (TLT section 3.3)
+};
+
+enum class SliceFormula : std::uint32_t {
+    corrected,          ///< the slides' edges: slice_near * (slice_far / slice_near)^(i / (slice_count - 1))
+    listing4_as_printed ///< TLT listing 4 to the letter: it divides where it should multiply by slice_count - 1, so
+                        ///< that depths from slice_near on share one slice; exact all the same, only slow
+};
+
+/// When a cell of the hybrid gets a tree (TLT section 3.3, listing 2, whose `cell.radius` is not defined).
+enum class Heuristic : std::uint32_t {
+    clipped_half_extent, ///< mean depth overlap of light and cell < half of the cell's depth extent
+    diameter_extent,     ///< mean light diameter < the cell's depth extent: the demo's default
+    clipped_extent,      ///< mean depth overlap < the cell's whole depth extent
+    expected_cost,       ///< modelled cost of the tree, for a depth uniform in the cell, < that of the list
+    always_tree,         ///< every cell with more lights than fit one leaf
+    always_list          ///< none: the hybrid then tests what `clustered` tests
+};
+
+/// What lights are sorted by (TLT section 3.2 sorts by the distance to the camera plane, of the centre).
+enum class SortKey : std::uint32_t { center_depth, near_depth };
+
+/// Depth bounds of a list's single node (TLT section 3.4 iterates over a list without asking for its bounds).
+enum class ListBounds : std::uint32_t { infinite, of_lights };
+
+struct Options {
+    Structure structure = Structure::hybrid;
+    std::uint32_t tile_px = 48;     ///< TLT section 4.2, figure 6; at least 8
+    std::uint32_t slice_count = 16; ///< TLT section 4; [1, 128]; trees ignore it
+    float slice_near = 5.0f;        ///< end of the first slice, > 0 (TLT section 4)
+    float slice_far = 500.0f;       ///< > slice_near: "based on the scene extents" (TLT section 4)
+    std::uint32_t leaf_size = 4;    ///< "several light sources" (TLT section 3.2); [1, 65535]
+    SliceFormula slice_formula = SliceFormula::corrected;
+    Heuristic heuristic = Heuristic::clipped_half_extent;
+    SortKey sort_key = SortKey::center_depth;
+    ListBounds list_bounds = ListBounds::infinite;
+    bool time_stages = false; ///< fill Buffers::times
+};
+
+} // namespace manylights::paper

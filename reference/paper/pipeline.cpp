@@ -1,0 +1,203 @@
+#include "reference/paper/pipeline.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <stdexcept>
+
+namespace manylights::paper {
+namespace {
+
+constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+
+void check(const Options& options, std::span<const ManylightsView> views) {
+    if (options.tile_px < 8 || options.tile_px > 65536) throw std::invalid_argument("tile_px must be in [8, 65536]");
+    if (options.leaf_size < 1 || options.leaf_size > ML_NODE_COUNT_MAX)
+        throw std::invalid_argument("leaf_size must be in [1, 65535]");
+    for (const ManylightsView& view : views)
+        if (view.width < 1 || view.width > 65536 || view.height < 1 || view.height > 65536)
+            throw std::invalid_argument("view.width and view.height must be in [1, 65536]");
+}
+
+void prefetch([[maybe_unused]] const void* address) {
+#if defined(__GNUC__)
+    __builtin_prefetch(address);
+#endif
+}
+
+MlUint structure_code(Structure structure) {
+    if (structure == Structure::clustered) return ML_STRUCTURE_LISTS;
+    return structure == Structure::tree ? ML_STRUCTURE_TREES : ML_STRUCTURE_HYBRID;
+}
+
+} // namespace
+
+// Adds the time since the last call to a stage, or does nothing.
+class PaperPipeline::StageClock {
+  public:
+    explicit StageClock(bool runs) : runs_(runs) {
+        if (runs_) last_ = std::chrono::steady_clock::now();
+    }
+    void lap(double& milliseconds) {
+        if (!runs_) return;
+        const auto now = std::chrono::steady_clock::now();
+        milliseconds += std::chrono::duration<double, std::milli>(now - last_).count();
+        last_ = now;
+    }
+
+  private:
+    bool runs_;
+    std::chrono::steady_clock::time_point last_;
+};
+
+const Buffers& PaperPipeline::build(std::span<const ManylightsView> views, const ManylightsLights& lights,
+                                    const Options& options) {
+    check(options, views);
+    slices_.update(options, options.structure == Structure::tree ? 1 : options.slice_count);
+    views_.clear();
+    cell_count_ = node_count_ = reference_count_ = 0;
+    buffers_ = {};
+    StageClock clock(options.time_stages);
+    for (const ManylightsView& view : views) build_view(view, lights, options, clock);
+    buffers_.views = views_;
+    buffers_.slice_edges = slices_.edges();
+    buffers_.cells = {cells_.data(), cell_count_};
+    buffers_.nodes = {nodes_.data(), node_count_};
+    buffers_.references = {references_.data(), reference_count_};
+    return buffers_;
+}
+
+void PaperPipeline::build_view(const ManylightsView& view, const ManylightsLights& lights, const Options& options,
+                               StageClock& clock) {
+    const Camera camera = read_camera(view);
+    const Grid grid = make_grid(camera, options.tile_px);
+    place_view(camera, grid, options);
+    const std::uint32_t cell_count = views_.back().cell_count;
+    const bool has_trees = options.structure != Structure::clustered;
+
+    const CullCounts counts = cull(camera, grid.widening_px, lights, culled_);
+    buffers_.visible_lights += counts.kept;
+    buffers_.ignored_lights = counts.ignored;
+    clock.lap(buffers_.times.cull);
+
+    if (has_trees) sort_lights(counts.kept, options); // lists need no order
+    clock.lap(buffers_.times.sort);
+
+    bound_lights(camera, grid, counts.kept, has_trees);
+    clock.lap(buffers_.times.bounds);
+
+    MlCell* cells = cells_.data() + views_.back().cell_offset;
+    bin_lights(grid, cells, cell_count, !has_trees);
+    clock.lap(buffers_.times.bin);
+
+    if (has_trees) build_trees(camera, options, cells, clock);
+}
+
+void PaperPipeline::place_view(const Camera& camera, const Grid& grid, const Options& options) {
+    const std::uint64_t cell_count = std::uint64_t{grid.x.tiles} * grid.y.tiles * slices_.count();
+    if (cell_count_ + cell_count > kMost) throw std::length_error("more than 2^32 - 1 cells");
+    MlView view{};
+    view.width = camera.width;
+    view.height = camera.height;
+    view.tile_px = grid.tile_px;
+    view.tiles_x = grid.x.tiles;
+    view.tiles_y = grid.y.tiles;
+    view.slice_count = slices_.count();
+    view.slice_offset = 0;
+    view.cell_offset = std::uint32_t(cell_count_);
+    view.cell_count = std::uint32_t(cell_count);
+    view.structure = structure_code(options.structure);
+    view.slice_scale = slices_.guess_scale();
+    view.slice_bias = slices_.guess_bias();
+    views_.push_back(view);
+    cells_.require(cell_count_ + cell_count, cell_count_);
+    cell_count_ += cell_count;
+}
+
+void PaperPipeline::sort_lights(std::uint32_t count, const Options& options) {
+    const CulledLight* culled = culled_.data();
+    SortPair* pairs = sort_.pairs(count);
+    const float offset = options.sort_key == SortKey::near_depth ? 1.0f : 0.0f;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const float key = offset != 0.0f ? culled[i].depth - culled[i].radius : culled[i].depth;
+        pairs[i] = {sort_key(key), i};
+    }
+    order_ = sort_.sort(count);
+}
+
+void PaperPipeline::bound_lights(const Camera& camera, const Grid& grid, std::uint32_t count, bool sorted) {
+    constexpr std::uint32_t kAhead = 16; // sorted lights lie anywhere: fetch them in time
+    const CulledLight* culled = culled_.data();
+    BoundedLight* bounded = bounded_.require(count + std::size_t{1}); // one beyond: an empty box is written, too
+    std::uint32_t kept = 0;
+    std::uint64_t cells = 0;
+    float farthest = 0.0f;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (sorted) prefetch(culled + order_[std::min(i + kAhead, count - 1)].rank);
+        const bool touches = bound(camera, grid, slices_, culled[sorted ? order_[i].rank : i], bounded[kept]);
+        cells += touches ? bounded[kept].cell_count() : 0;
+        farthest = std::max(farthest, bounded[kept].max_depth);
+        kept += touches;
+    }
+    bounded_count_ = kept;
+    scatter_count_ = cells;
+    farthest_ = farthest;
+}
+
+void PaperPipeline::bin_lights(const Grid& grid, MlCell* cells, std::uint32_t cell_count, bool as_indices) {
+    const BoundedLight* bounded = bounded_.data();
+    const std::uint64_t first = reference_count_, end = first + scatter_count_;
+    if (end > kMost) throw std::length_error("more than 2^32 - 1 references");
+    Scatter* scatter = scatter_.require(scatter_count_ + kScatterPadding);
+    write_scatter(bounded, bounded_count_, grid, scatter);
+    place_cells(scatter, scatter_count_, std::uint32_t(first), cells, cell_count);
+    std::uint32_t* references = references_.require(end, first);
+    reference_count_ = end;
+    if (!as_indices) return fill_places(scatter, scatter_count_, cells, cell_count, references);
+    fill_indices(scatter, scatter_count_, bounded, cells, cell_count, references);
+    for (std::uint32_t cell = 0; cell < cell_count; ++cell) buffers_.list_cells += cells[cell].count != 0;
+}
+
+// Fetches the cell's depth ranges, and turns its references from places into light indices. Neighbours in a cell are
+// neighbours in depth, so this reads a window of the sorted lights.
+CellLights PaperPipeline::take_cell(const MlCell& cell) {
+    const BoundedLight* bounded = bounded_.data();
+    std::uint32_t* references = references_.data() + cell.first;
+    DepthRange* ranges = ranges_.require(cell.count);
+    for (std::uint32_t i = 0; i < cell.count; ++i) {
+        const BoundedLight& light = bounded[references[i]];
+        ranges[i] = {light.min_depth, light.max_depth};
+        references[i] = light.index;
+    }
+    return {cell.first, cell.count, ranges};
+}
+
+// The open ends as card 7 of the project's specification reads them: slice 0 begins at the near plane, and no slice
+// reaches beyond slice_far or the farthest light.
+SliceExtent PaperPipeline::slice_extent(const Camera& camera, const Options& options, std::uint32_t slice) const {
+    const float farthest = std::min(std::max(options.slice_far, farthest_), std::numeric_limits<float>::max());
+    return {std::max(slices_.edges()[slice], camera.near_depth), std::min(slices_.edges()[slice + 1], farthest)};
+}
+
+// One row of tiles at a time, so that the breadth-first nodes are still in the cache when they are packed.
+void PaperPipeline::build_trees(const Camera& camera, const Options& options, MlCell* cells, StageClock& clock) {
+    const MlView& view = views_.back();
+    for (std::uint32_t begin = 0; begin < view.cell_count; begin += view.tiles_x) {
+        const SliceExtent extent = slice_extent(camera, options, begin / (view.tiles_x * view.tiles_y));
+        for (std::uint32_t cell = begin; cell < begin + view.tiles_x; ++cell) {
+            const CellLights lights = take_cell(cells[cell]);
+            cells[cell] = {std::uint32_t(node_count_) + tree_builder_.node_count(), 0};
+            if (lights.count == 0) continue;
+            cells[cell].count = tree_builder_.build_cell(lights, extent, options);
+            ++(tree_builder_.built_tree() ? buffers_.tree_cells : buffers_.list_cells);
+        }
+        clock.lap(buffers_.times.tree);
+        const std::uint64_t end = node_count_ + tree_builder_.node_count();
+        if (end > kMost) throw std::length_error("more than 2^32 - 1 nodes");
+        tree_builder_.pack(nodes_.require(end, node_count_) + node_count_);
+        node_count_ = end;
+        clock.lap(buffers_.times.pack);
+    }
+}
+
+} // namespace manylights::paper

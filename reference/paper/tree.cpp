@@ -1,0 +1,175 @@
+#include "reference/paper/tree.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+namespace manylights::paper {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// Cost of a visited node in tested lights, for Heuristic::expected_cost.
+constexpr float kNodeCost = 0.5f;
+
+std::uint32_t divide_up(std::uint32_t value, std::uint32_t by) { return value / by + (value % by != 0); }
+
+std::uint32_t leaf_bits(std::uint32_t count) { return ML_NODE_LEAF | (count << ML_NODE_COUNT_SHIFT); }
+
+// Children lie side by side; a count over 16 bits saturates, which nobody reads in an inner node.
+MlNode parent_of(const MlNode& left, const MlNode& right) {
+    const std::uint32_t count = ml_node_light_count(left.bits) + ml_node_light_count(right.bits);
+    return {std::min(left.min_depth, right.min_depth), std::max(left.max_depth, right.max_depth), left.first,
+            std::min(count, ML_NODE_COUNT_MAX) << ML_NODE_COUNT_SHIFT};
+}
+
+MlNode leaf_over(const CellLights& lights, std::uint32_t begin, std::uint32_t end) {
+    MlNode leaf{kInfinity, -kInfinity, lights.first + begin, leaf_bits(end - begin)};
+    for (std::uint32_t i = begin; i < end; ++i) {
+        leaf.min_depth = std::min(leaf.min_depth, lights.ranges[i].min);
+        leaf.max_depth = std::max(leaf.max_depth, lights.ranges[i].max);
+    }
+    return leaf;
+}
+
+// The part of a slice that [min, max] covers: the chance that a depth hits it, if depths are uniform in the slice.
+float hit_chance(const MlNode& node, SliceExtent extent) {
+    const float overlap = std::min(node.max_depth, extent.max) - std::max(node.min_depth, extent.min);
+    return std::max(overlap, 0.0f) / (extent.max - extent.min);
+}
+
+} // namespace
+
+// In a perfect tree whose breadth-first array holds the leaves first and the root last, the left child of node i is
+// (2 i) AND node_count, with node_count = 2^levels - 1 (slides). A subtree of k levels has 2^k - 1 nodes: to skip it is
+// to skip those.
+std::vector<DepthFirstEntry> depth_first_table(std::uint32_t levels) {
+    const std::uint32_t node_count = (1u << levels) - 1;
+    std::vector<DepthFirstEntry> table(node_count);
+    table[0] = {std::uint16_t(node_count - 1), std::uint16_t(node_count)};
+    for (std::uint32_t i = 0; i < node_count; ++i) {
+        if (table[i].skip == 1) continue;
+        const std::uint32_t left = (2u * table[i].breadth_first) & node_count;
+        const auto child_skip = std::uint16_t(table[i].skip / 2);
+        table[i + 1] = {std::uint16_t(left), child_skip};
+        table[i + 1 + child_skip] = {std::uint16_t(left + 1), child_skip};
+    }
+    return table;
+}
+
+bool prefers_tree(Heuristic heuristic, const CellLights& lights, SliceExtent extent) {
+    if (heuristic == Heuristic::always_tree) return true;
+    if (heuristic == Heuristic::always_list || heuristic == Heuristic::expected_cost) return false;
+    const bool clips = heuristic != Heuristic::diameter_extent;
+    const float lower = clips ? extent.min : -kInfinity, upper = clips ? extent.max : kInfinity;
+    float sum = 0.0f;
+    for (std::uint32_t i = 0; i < lights.count; ++i)
+        sum += std::min(lights.ranges[i].max, upper) - std::max(lights.ranges[i].min, lower);
+    const float limit = heuristic == Heuristic::clipped_half_extent ? 0.5f : 1.0f;
+    return sum / float(lights.count) < limit * (extent.max - extent.min);
+}
+
+TreeBuilder::TreeBuilder() {
+    for (std::uint32_t levels = 1; levels <= kMaxTreeLevels; ++levels) tables_[levels] = depth_first_table(levels);
+}
+
+std::uint32_t TreeBuilder::build_cell(const CellLights& lights, SliceExtent extent, const Options& options) {
+    const std::uint32_t first_node = node_count_;
+    const std::size_t first_tree = trees_.size();
+    const bool one_leaf = lights.count <= options.leaf_size;
+    if (options.structure == Structure::tree) {
+        built_tree_ = !one_leaf;
+        add_trees(lights, options.leaf_size);
+        return node_count_ - first_node;
+    }
+    built_tree_ = !one_leaf && prefers_tree(options.heuristic, lights, extent);
+    if (!one_leaf && options.heuristic == Heuristic::expected_cost) {
+        add_trees(lights, options.leaf_size);
+        built_tree_ = expected_cost(first_tree, extent) < kNodeCost + float(lights.count);
+        if (!built_tree_) {
+            node_count_ = first_node;
+            trees_.resize(first_tree);
+            add_list(lights, options);
+        }
+    } else if (built_tree_) {
+        add_trees(lights, options.leaf_size);
+    } else {
+        add_list(lights, options);
+    }
+    return node_count_ - first_node;
+}
+
+// A leaf counts 16 bits of lights: a longer list is several leaves in a row.
+void TreeBuilder::add_list(const CellLights& lights, const Options& options) {
+    for (std::uint32_t begin = 0; begin < lights.count;) {
+        const std::uint32_t end = begin + std::min(lights.count - begin, ML_NODE_COUNT_MAX);
+        MlNode leaf{-kInfinity, kInfinity, lights.first + begin, leaf_bits(end - begin)};
+        if (options.list_bounds == ListBounds::of_lights) leaf = leaf_over(lights, begin, end);
+        scratch_.require(node_count_ + 1, node_count_)[node_count_] = leaf;
+        trees_.push_back({node_count_++, 1});
+        begin = end;
+    }
+}
+
+// More lights than fit the leaves of one tree: several trees in a row.
+void TreeBuilder::add_trees(const CellLights& lights, std::uint32_t leaf_size) {
+    const std::uint64_t most = std::uint64_t(kMaxTreeLeaves) * leaf_size;
+    for (std::uint64_t begin = 0; begin < lights.count; begin += most) {
+        const auto count = std::uint32_t(std::min<std::uint64_t>(lights.count - begin, most));
+        add_tree({lights.first + std::uint32_t(begin), count, lights.ranges + begin}, leaf_size);
+    }
+}
+
+// Lights are dealt to the leaves in order, as evenly as whole numbers allow; what is left over of the power of two is
+// padding that no depth hits.
+void TreeBuilder::add_tree(const CellLights& lights, std::uint32_t leaf_size) {
+    const std::uint32_t leaves = std::bit_ceil(divide_up(lights.count, leaf_size));
+    const std::uint32_t per_leaf = divide_up(lights.count, leaves);
+    const std::uint32_t node_count = 2 * leaves - 1;
+    MlNode* nodes = scratch_.require(node_count_ + node_count, node_count_) + node_count_;
+    std::uint32_t begin = 0;
+    for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) {
+        const std::uint32_t end = std::min(begin + per_leaf, lights.count);
+        nodes[leaf] = leaf_over(lights, begin, end);
+        begin = end;
+    }
+    for (std::uint32_t node = leaves, child = 0; node < node_count; ++node, child += 2)
+        nodes[node] = parent_of(nodes[child], nodes[child + 1]);
+    trees_.push_back({node_count_, std::uint32_t(std::bit_width(leaves))});
+    node_count_ += node_count;
+}
+
+// Every root is visited, every other node where its parent is hit, and a leaf's lights are tested where the leaf is
+// hit.
+float TreeBuilder::expected_cost(std::size_t first_tree, SliceExtent extent) const {
+    float cost = 0.0f;
+    for (std::size_t tree = first_tree; tree < trees_.size(); ++tree) {
+        const MlNode* nodes = scratch_.data() + trees_[tree].first_node;
+        const std::uint32_t node_count = (1u << trees_[tree].levels) - 1;
+        cost += kNodeCost;
+        for (std::uint32_t i = 0; i < node_count; ++i) {
+            const bool leaf = ml_node_is_leaf(nodes[i].bits);
+            const float price = leaf ? float(ml_node_light_count(nodes[i].bits)) : 2.0f * kNodeCost;
+            cost += hit_chance(nodes[i], extent) * price;
+        }
+    }
+    return cost;
+}
+
+void TreeBuilder::pack(MlNode* nodes) {
+    const MlNode* scratch = scratch_.data();
+    for (const Tree& tree : trees_) {
+        const DepthFirstEntry* table = tables_[tree.levels].data();
+        const MlNode* from = scratch + tree.first_node;
+        MlNode* to = nodes + tree.first_node;
+        const std::uint32_t node_count = (1u << tree.levels) - 1;
+        for (std::uint32_t i = 0; i < node_count; ++i) {
+            to[i] = from[table[i].breadth_first];
+            to[i].bits |= table[i].skip;
+        }
+    }
+    trees_.clear();
+    node_count_ = 0;
+}
+
+} // namespace manylights::paper
