@@ -67,8 +67,8 @@ Scene make_bars(Detail detail) {
     set_bounds(scene);
     scene.light_box = {{-kHalf, 0.0f, -kHalf}, {kHalf, 80.0f, kHalf}};
     scene.view_extent = 500.0f;
-    scene.cameras = {look_at("front", {0, 20, 200}, {0, 30, -200}), look_at("corner", {-190, 12, 195}, {60, 25, -150}),
-                     look_at("high", {40, 70, 205}, {-20, 25, -100}),
+    scene.cameras = {look_at("front", {0, 20, 200}, {0, 30, -200}), look_at("corner", {-170, 12, 185}, {60, 25, -150}),
+                     look_at("high", {40, 45, 160}, {-20, 25, -140}),
                      look_at("inside", {100, 6, 120}, {-100, 20, -180})};
     for (int frame = 0; frame < 16; ++frame) {
         const float t = float(frame) / 15.0f;

@@ -90,6 +90,10 @@ class Canyon {
     void add_column(int i, int k) {
         const int top = level(i, k);
         const std::array<int, 4> around{level(i - 1, k), level(i + 1, k), level(i, k - 1), level(i, k + 1)};
+        if (detail_ == Detail::low) {
+            add_plain_column(i, k, top, around);
+            return;
+        }
         for (int stratum = 0; stratum < top; ++stratum) {
             unsigned exposed = 0;
             for (unsigned side = 0; side < 4; ++side) exposed |= around[side] <= stratum ? 1u << side : 0u;
@@ -97,9 +101,20 @@ class Canyon {
         }
     }
 
+    /// One rectangle per exposed side, over all of its strata.
+    void add_plain_column(int i, int k, int top, const std::array<int, 4>& around) {
+        if (top == 0) return;
+        const std::uint32_t rock = rock_[std::size_t(top)];
+        const glm::vec3 upper(cell_x(i + 1), kStratum * float(top), cell_z(k + 1));
+        mesh_.box({cell_x(i), 0.0f, cell_z(k)}, upper, kSideTop, rock);
+        for (unsigned side = 0; side < 4; ++side) {
+            if (around[side] >= top) continue;
+            mesh_.box({cell_x(i), kStratum * float(around[side]), cell_z(k)}, upper, 1u << side, rock);
+        }
+    }
+
     /// Free diagonally: seen through the gap between the two drawn-in neighbours.
     bool is_corner(int i, int k, int stratum) const {
-        if (detail_ == Detail::low) return false;
         return std::min({level(i - 1, k - 1), level(i + 1, k - 1), level(i - 1, k + 1), level(i + 1, k + 1)}) <=
                stratum;
     }
@@ -110,11 +125,6 @@ class Canyon {
         glm::vec3 lower(cell_x(i), kStratum * float(stratum), cell_z(k));
         glm::vec3 upper(lower.x + kCell, lower.y + kStratum, lower.z + kCell);
         const std::uint32_t side = rock_[channel], top = rock_[(channel + 1) % rock_.size()];
-        if (detail_ == Detail::low) {
-            const bool topmost = level(i, k) == stratum + 1;
-            mesh_.box(lower, upper, exposed | (topmost ? kSideTop : 0u), side, top);
-            return;
-        }
         if (exposed & kSideNegativeX) lower.x += random_between(kSeed + 6, index, channel, 0.0f, 0.8f);
         if (exposed & kSidePositiveX) upper.x -= random_between(kSeed + 7, index, channel, 0.0f, 0.8f);
         if (exposed & kSideNegativeZ) lower.z += random_between(kSeed + 8, index, channel, 0.0f, 0.8f);
@@ -190,9 +200,9 @@ class Canyon {
     void add_cameras() {
         const auto on_axis = [](float z, float y) { return glm::vec3(axis_x(z), y, z); };
         scene_.cameras = {look_at("axis", on_axis(290, 2.5f), on_axis(150, 8)),
-                          look_at("elevated", on_axis(295, 42), on_axis(100, 15)),
+                          look_at("elevated", on_axis(150, 42), on_axis(-40, 15)),
                           look_at("bend", on_axis(120, 6), on_axis(0, 10)),
-                          look_at("return", on_axis(-290, 20), on_axis(-100, 10))};
+                          look_at("return", on_axis(-150, 20), on_axis(30, 10))};
         for (int frame = 0; frame < 16; ++frame) {
             const float z = 285.0f - 28.0f * float(frame);
             const float y = 6.0f + 22.0f * value_noise(kSeed + 16, 0.4f * float(frame));

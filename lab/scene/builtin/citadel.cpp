@@ -31,9 +31,8 @@ class Citadel {
   public:
     explicit Citadel(Detail detail) : detail_(detail), mesh_(scene_) {
         for (std::uint32_t i = 0; i < plaster_.size(); ++i) {
-            const glm::vec3 tint(random_between(kSeed + 1, i, 0, 0.60f, 0.78f),
-                                 random_between(kSeed + 1, i, 1, 0.52f, 0.66f),
-                                 random_between(kSeed + 1, i, 2, 0.38f, 0.54f));
+            const float shade = random_between(kSeed + 1, i, 0, 0.75f, 1.05f), warmth = random_unit(kSeed + 1, i, 1);
+            const glm::vec3 tint = shade * glm::vec3(0.72f, 0.66f - 0.14f * warmth, 0.56f - 0.26f * warmth);
             plaster_[i] = add_material(tint, 0.9f, {1.0f, 0.3f, 2.5f});
         }
         for (std::uint32_t i = 0; i < roof_.size(); ++i) {
@@ -55,7 +54,7 @@ class Citadel {
         scene_.view_extent = 3500.0f;
         scene_.radii.large_share = 0.01f;
         scene_.radii.scale_cap = 2.0f;
-        scene_.crowding_radius = 500.0f;
+        scene_.crowding_radius = 1500.0f;
         return std::move(scene_);
     }
 
@@ -139,9 +138,9 @@ class Citadel {
     }
 
     void add_cameras() {
-        scene_.cameras = {look_at("gate", {10, 120, 1450}, {0, 60, 0}), look_at("street", {10, 30, 600}, {5, 60, -400}),
-                          look_at("terrace", {-400, 90, 400}, {300, 30, -300}),
-                          look_at("keep", {10, 200, 10}, {900, 0, 900})};
+        scene_.cameras = {
+            look_at("gate", {10, 40, 1450}, {10, 50, 0}), look_at("rooftops", {10, 25, 1100}, {10, 60, -400}),
+            look_at("terrace", {-890, 60, 910}, {0, 40, -100}), look_at("street", {-1190, 12, 910}, {-1190, 20, -500})};
         for (int frame = 0; frame < 16; ++frame) {
             const float t = float(frame) / 15.0f;
             scene_.path.push_back(look_at("path", {10.0f, 40.0f + 600.0f * t * (1.0f - t), 1450.0f - 2200.0f * t},
