@@ -1,0 +1,252 @@
+#include "lab/app/arguments.h"
+
+#include "lab/scene/error.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace manylights::lab::app {
+namespace {
+
+constexpr std::array<const char*, 6> kViewNames = {"shaded", "tested", "affecting", "nodes", "references", "structure"};
+constexpr std::array<const char*, 4> kListNames = {"scenes", "techniques", "suites", "devices"};
+constexpr std::array<const char*, 2> kDetailNames = {"low", "full"};
+
+// Option values as they were typed; CLI11 finds them, the functions below judge them, so all refusals sound alike.
+struct Typed {
+    std::string lights = "65536", seed = "1", kinds = "point", size, detail = "full", view = "shaded", scale_max;
+    std::vector<std::string> settings, techniques;
+    std::string list;
+};
+
+[[noreturn]] void refuse(const std::string& option, const std::string& value, const std::string& rule) {
+    throw InputError(fmt::format("{} '{}': must be {}", option, value, rule));
+}
+
+std::uint32_t whole_number(const std::string& option, const std::string& text, std::uint32_t least,
+                           std::uint32_t most) {
+    std::uint32_t value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stopped, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc{} || stopped != end || value < least || value > most)
+        refuse(option, text, fmt::format("a whole number from {} to {}", least, most));
+    return value;
+}
+
+template <std::size_t N>
+std::size_t choice(const std::string& option, const std::string& text, const std::array<const char*, N>& choices) {
+    const auto found = std::find(choices.begin(), choices.end(), text);
+    if (found == choices.end()) refuse(option, text, fmt::format("one of {}", fmt::join(choices, ", ")));
+    return static_cast<std::size_t>(found - choices.begin());
+}
+
+void read_size(const std::string& text, Selectors& selectors) {
+    const std::size_t cross = text.find('x');
+    const std::string rule = fmt::format("WIDTHxHEIGHT, each from 1 to {}", kLargestSide);
+    if (cross == std::string::npos) refuse("--size", text, rule);
+    try {
+        selectors.width = whole_number("--size", text.substr(0, cross), 1, kLargestSide);
+        selectors.height = whole_number("--size", text.substr(cross + 1), 1, kLargestSide);
+    } catch (const InputError&) {
+        refuse("--size", text, rule);
+    }
+}
+
+void read_settings(const std::vector<std::string>& texts, OptionValues& settings) {
+    for (const std::string& text : texts) {
+        const std::size_t equals = text.find('=');
+        if (equals == std::string::npos || equals == 0) refuse("--set", text, "KEY=VALUE");
+        settings.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+    }
+}
+
+// Spots and boxes have their own membership rule, which this version's shaders do not have.
+void check_kinds(const std::string& text) {
+    if (text != "point") refuse("--kinds", text, "point: this version shades point lights, and no spots or boxes");
+}
+
+double positive_number(const std::string& option, const std::string& text) {
+    double value = 0.0;
+    const char* const end = text.data() + text.size();
+    const auto [stopped, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc{} || stopped != end || !std::isfinite(value) || !(value > 0.0))
+        refuse(option, text, "a number above 0");
+    return value;
+}
+
+void read_selectors(const Typed& typed, Selectors& selectors) {
+    selectors.lights.count = whole_number("--lights", typed.lights, 0, kMostLights);
+    selectors.lights.seed = whole_number("--seed", typed.seed, 0, 0xFFFFFFFFu);
+    selectors.detail = choice("--detail", typed.detail, kDetailNames) == 0 ? Detail::low : Detail::full;
+    check_kinds(typed.kinds);
+    read_size(typed.size, selectors);
+    read_settings(typed.settings, selectors.settings);
+}
+
+std::string joined(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
+
+std::vector<std::string> technique_names() {
+    std::vector<std::string> names;
+    for (const TechniqueInfo& info : technique_infos()) names.push_back(info.name);
+    return names;
+}
+
+void check_technique(const std::string& option, const std::string& name, const std::vector<std::string>& known) {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+        throw InputError(fmt::format("{} '{}': unknown technique; there are {}", option, name, joined(known)));
+}
+
+// "all" stands for every technique, brute force included.
+std::vector<std::string> read_techniques(const std::vector<std::string>& given) {
+    const std::vector<std::string> known = technique_names();
+    if (given == std::vector<std::string>{"all"}) return known;
+    for (auto name = given.begin(); name != given.end(); ++name) {
+        check_technique("--techniques", *name, known);
+        if (std::find(given.begin(), name, *name) != name)
+            throw InputError(fmt::format("--techniques '{}': is given twice", *name));
+    }
+    return given;
+}
+
+// A key is for those of the techniques that have it; one that none of them has is a mistake.
+void check_setting_keys(const Selectors& selectors, const std::vector<std::string>& techniques) {
+    for (const auto& [key, value] : selectors.settings) {
+        bool known = false;
+        std::vector<std::string> keys;
+        for (const TechniqueInfo& info : technique_infos()) {
+            if (std::find(techniques.begin(), techniques.end(), info.name) == techniques.end()) continue;
+            for (const OptionInfo& option : info.options) {
+                known = known || option.key == key;
+                if (std::find(keys.begin(), keys.end(), option.key) == keys.end()) keys.push_back(option.key);
+            }
+        }
+        if (!known)
+            throw InputError(fmt::format("--set '{}={}': unknown option of {}; {}", key, value, joined(techniques),
+                                         keys.empty() ? "it has none" : "there are " + joined(keys)));
+    }
+}
+
+void add_selectors(CLI::App& app, Selectors& selectors, Typed& typed) {
+    app.add_option("--scene", selectors.scene, "a built-in scene (see `list scenes`) or a .glb or .gltf file [canyon]");
+    app.add_option("--detail", typed.detail, "of built-in scenes: low or full [full]");
+    app.add_option("--lights", typed.lights, "how many, 0 to 16777216 [65536]");
+    app.add_option("--distribution", selectors.lights.distribution,
+                   "volume, surface, surface-largest, groups, view or file [volume]");
+    app.add_option("--seed", typed.seed, "of the distribution, a 32-bit number [1]");
+    app.add_option("--radius", selectors.lights.radius,
+                   "auto (about 6 lights affect a point), mix (as the distribution makes them) or MIN:MAX [auto]");
+    app.add_option("--kinds", typed.kinds, "of lights: point [point]");
+    app.add_option("--set", typed.settings, "KEY=VALUE, an option of the technique; may be repeated")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_option("--camera", selectors.camera, "a camera's name, or path:T with T in [0, 1) [the scene's first]");
+    app.add_option("--size", typed.size, fmt::format("WIDTHxHEIGHT in pixels [{}]", typed.size));
+    app.add_option("--device", selectors.device, "index in `list devices` or part of a name [the best one]");
+    app.add_flag("--validation", selectors.validation, "run under core and synchronization validation");
+}
+
+// One line out of CLI11's words.
+std::string usage_error(const CLI::ParseError& error, const CLI::App& app) {
+    std::string text = error.what();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    std::string command = "manylights";
+    for (const CLI::App* used : app.get_subcommands()) command += " " + used->get_name();
+    return fmt::format("usage: {}; see `{} --help`", text, command);
+}
+
+RenderArguments finish_render(RenderArguments render, const Typed& typed, const std::string& technique) {
+    read_selectors(typed, render.selectors);
+    render.view = static_cast<ViewKind>(choice("--view", typed.view, kViewNames));
+    if (!typed.scale_max.empty()) render.scale_max = positive_number("--scale-max", typed.scale_max);
+    if (typed.techniques.empty()) {
+        check_technique("--technique", technique, technique_names());
+        render.techniques = {technique};
+    } else {
+        render.techniques = read_techniques(typed.techniques);
+    }
+    if (!render.panels.empty() && render.panels.find("{}") == std::string::npos)
+        refuse("--panels", render.panels, "a file name with {} where the technique's name goes");
+    check_setting_keys(render.selectors, render.techniques);
+    return render;
+}
+
+VerifyArguments finish_verify(VerifyArguments verify, const Typed& typed) {
+    read_selectors(typed, verify.selectors);
+    verify.techniques = read_techniques(typed.techniques.empty() ? std::vector<std::string>{"all"} : typed.techniques);
+    check_setting_keys(verify.selectors, verify.techniques);
+    if (verify.remove_one_light.empty()) return verify;
+    check_technique("--remove-one-light", verify.remove_one_light, verify.techniques);
+    return verify;
+}
+
+void add_render(CLI::App& app, RenderArguments& render, Typed& typed, std::string& technique) {
+    add_selectors(app, render.selectors, typed);
+    CLI::Option* one = app.add_option("--technique", technique, "see `list techniques` [hybrid_light_trees]");
+    app.add_option("--techniques", typed.techniques, "NAME,NAME,... or all: pictures side by side on one scale")
+        ->delimiter(',')
+        ->excludes(one);
+    app.add_option(
+        "--view", typed.view,
+        "shaded; false colours of the lights tested, affecting, the nodes or references walked per pixel; or "
+        "the structure that served it [shaded]");
+    app.add_option("--scale-max", typed.scale_max,
+                   "the number at the top of the false colours, so that pictures compare [99th percentile, rounded]");
+    app.add_option("--out", render.out, "FILE.png or FILE.exr (linear radiance, or the plain numbers of a view)")
+        ->required();
+    app.add_option("--panels", render.panels,
+                   "FILE{}.png: each technique's picture alone as well, on the same scale; {} becomes its name");
+    app.add_option("--stats", render.stats, "FILE.json: work, bytes and times");
+}
+
+void add_verify(CLI::App& app, VerifyArguments& verify, Typed& typed) {
+    add_selectors(app, verify.selectors, typed);
+    app.add_option("--techniques", typed.techniques, "NAME,NAME,... or all [all]")->delimiter(',');
+    app.add_option("--stats", verify.stats, "FILE.json: work, bytes, times and missing points");
+    // For tests of the proof itself: an empty group keeps it out of the help.
+    app.add_option("--remove-one-light", verify.remove_one_light)->group("");
+}
+
+} // namespace
+
+const char* view_name(ViewKind view) { return kViewNames[static_cast<std::size_t>(view)]; }
+
+Command parse_command_line(const std::vector<std::string>& arguments) {
+    CLI::App app("Light a scene with very many lights, and lose none of them.", "manylights");
+    app.set_version_flag("--version",
+                         fmt::format("manylights {}.{}", MANYLIGHTS_VERSION_MAJOR, MANYLIGHTS_VERSION_MINOR));
+    app.require_subcommand(1);
+    app.fallthrough(false);
+
+    RenderArguments render;
+    VerifyArguments verify;
+    Typed render_typed, verify_typed, list_typed;
+    render_typed.size = "960x540";
+    verify_typed.size = "256x144";
+    std::string technique = "hybrid_light_trees";
+    CLI::App* render_app = app.add_subcommand("render", "draw a picture of a scene, or of the work it took");
+    CLI::App* verify_app = app.add_subcommand("verify", "prove that no technique loses a light, against brute force");
+    CLI::App* list_app = app.add_subcommand("list", "what there is: scenes, techniques, suites or devices");
+    add_render(*render_app, render, render_typed, technique);
+    add_verify(*verify_app, verify, verify_typed);
+    list_app->add_option("what", list_typed.list, "scenes, techniques, suites or devices")->required();
+
+    try {
+        app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend())); // CLI11 takes them last first
+    } catch (const CLI::CallForHelp&) {
+        return Information{app.help()};
+    } catch (const CLI::CallForVersion& version) {
+        return Information{std::string(version.what()) + "\n"};
+    } catch (const CLI::ParseError& error) {
+        throw InputError(usage_error(error, app));
+    }
+    if (render_app->parsed()) return finish_render(render, render_typed, technique);
+    if (verify_app->parsed()) return finish_verify(verify, verify_typed);
+    return ListArguments{static_cast<ListKind>(choice("list", list_typed.list, kListNames))};
+}
+
+} // namespace manylights::lab::app

@@ -1,0 +1,66 @@
+#pragma once
+// The command line: what each subcommand was asked to do. Texts that belong to a scene, a device or a technique are
+// checked where those are at hand; everything else is checked here.
+
+#include "lab/scene/lights.h"
+#include "lab/scene/scene.h"
+#include "lab/techniques/technique.h"
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace manylights::lab::app {
+
+constexpr std::uint32_t kMostLights = 1u << 24;
+constexpr std::uint32_t kLargestSide = 8192; ///< of an image, pixels
+
+/// What is looked at and what computes it: common to render and verify.
+struct Selectors {
+    std::string scene = "canyon";
+    Detail detail = Detail::full;
+    LightOptions lights;
+    OptionValues settings; ///< of the technique, in the order given
+    std::string camera;    ///< empty: the scene's first
+    std::uint32_t width = 0, height = 0;
+    std::string device; ///< empty: the best one
+    bool validation = false;
+};
+
+enum class ViewKind { shaded, tested, affecting, nodes, references, structure };
+const char* view_name(ViewKind view);
+
+struct RenderArguments {
+    Selectors selectors;
+    std::vector<std::string> techniques; ///< several: panels side by side on one scale
+    ViewKind view = ViewKind::shaded;
+    std::optional<double> scale_max; ///< top of the false colours
+    std::string out;
+    std::string stats;  ///< may be empty
+    std::string panels; ///< name with {} for a technique's own picture; may be empty
+};
+
+struct VerifyArguments {
+    Selectors selectors;
+    std::vector<std::string> techniques; ///< never empty
+    std::string stats;                   ///< may be empty
+    std::string remove_one_light;        ///< technique to damage on purpose; empty: none
+};
+
+enum class ListKind { scenes, techniques, suites, devices };
+struct ListArguments {
+    ListKind what;
+};
+
+/// The help or the version was asked for: text for standard output.
+struct Information {
+    std::string text;
+};
+
+using Command = std::variant<RenderArguments, VerifyArguments, ListArguments, Information>;
+
+/// arguments without the program's name. Throws InputError: the option, what was given, and the rule.
+Command parse_command_line(const std::vector<std::string>& arguments);
+
+} // namespace manylights::lab::app

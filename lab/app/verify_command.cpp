@@ -1,0 +1,150 @@
+#include "lab/app/commands.h"
+#include "lab/app/image_check.h"
+#include "lab/app/number_scale.h"
+#include "lab/app/progress.h"
+#include "lab/app/statistics.h"
+#include "lab/app/validation_report.h"
+#include "lab/app/work_table.h"
+#include "lab/app/workbench.h"
+#include "lab/scene/error.h"
+#include "lab/techniques/light_stream.h"
+#include "lab/techniques/verification.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace manylights::lab::app {
+namespace {
+
+constexpr const char* kTruth = "brute_force";
+
+struct Verdict {
+    Measurement measurement;
+    VerifyResult result;
+    std::string image; ///< what is wrong with the shaded image; empty: nothing
+    bool right() const { return result.exact() && image.empty(); }
+};
+
+struct Truth {
+    std::vector<PixelRecord> records;
+    std::vector<float> radiance;
+    std::vector<std::uint8_t> mask;
+};
+
+Truth find_truth(Workbench& bench, Progress& progress) {
+    progress.at(fmt::format("{}: testing every light at every pixel", kTruth));
+    const std::unique_ptr<Technique> technique = make_technique(bench.device(), kTruth, {});
+    technique->prepare(bench.frame());
+    Truth truth;
+    truth.records = technique->record(bench.frame());
+    truth.radiance = radiance_of(truth.records);
+    truth.mask = bench.shaded_mask();
+    return truth;
+}
+
+void damage(Technique& technique, const Frame& frame) {
+    if (!technique.remove_one_reference(frame))
+        throw InputError(
+            fmt::format("--remove-one-light '{}': there is no reference to remove", technique.info().name));
+}
+
+Verdict judge(Workbench& bench, const std::string& name, const Truth& truth, bool remove_one, Progress& progress) {
+    progress.at(fmt::format("{}: building and shading", name));
+    const Frame& frame = bench.frame();
+    const std::unique_ptr<Technique> technique = bench.make(name);
+    technique->prepare(frame);
+    if (remove_one) damage(*technique, frame);
+    const std::vector<PixelRecord> records = technique->record(frame);
+    const std::vector<float> radiance = technique->shade(frame);
+
+    Verdict verdict;
+    verdict.result = compare(truth.records, records, frame.width);
+    verdict.image = image_difference(truth.radiance, radiance, truth.mask, frame.width, frame.height);
+    verdict.measurement = {name,
+                           bench.options_for(name),
+                           summarize(records),
+                           technique->stats(),
+                           light_set_hash(records),
+                           verdict.result.missing_points};
+    return verdict;
+}
+
+std::string verdict_text(const Verdict& verdict) {
+    if (verdict.right()) return "exact";
+    return verdict.result.exact() ? "WRONG IMAGE" : "WRONG";
+}
+
+std::string table_of(const std::vector<Verdict>& verdicts) {
+    std::vector<Measurement> measurements;
+    std::vector<std::string> texts;
+    for (const Verdict& verdict : verdicts) {
+        measurements.push_back(verdict.measurement);
+        texts.push_back(verdict_text(verdict));
+    }
+    return work_table(measurements, texts);
+}
+
+// Which lights, where the hashes tell: one or two that are missing.
+std::string lost_lights(const VerifyResult& result, const Workbench& bench) {
+    const std::size_t pixel = std::size_t{result.first_y} * bench.frame().width + result.first_x;
+    const glm::vec3 point = bench.frame().points.download_positions().at(pixel).position;
+    const std::vector<std::uint32_t> affecting = affecting_lights(make_light_stream(bench.frame()), point);
+    const std::vector<std::uint32_t> lost = missing_lights(result.first_truth, result.first_got, affecting);
+    if (lost.empty()) return "";
+    return fmt::format(", missing light{} {}", lost.size() > 1 ? "s" : "", fmt::join(lost, " and "));
+}
+
+std::string failure(const Verdict& verdict, const Workbench& bench) {
+    const std::string& name = verdict.measurement.technique;
+    if (verdict.result.exact()) return fmt::format("{}: shaded image: {}", name, verdict.image);
+    const VerifyResult& result = verdict.result;
+    return fmt::format("{}: {} of {} points differ from {}; first at pixel ({}, {}): {} of {} affecting lights{}", name,
+                       result.wrong_pixels, result.pixels, kTruth, result.first_x, result.first_y,
+                       result.first_got.affecting, result.first_truth.affecting, lost_lights(result, bench));
+}
+
+std::string heading(const Selectors& selectors, Workbench& bench) {
+    return fmt::format("{}, {} lights ({}, seed {}), camera {}, {}x{}, {}\n", selectors.scene,
+                       with_separators(bench.lights().lights.size()), selectors.lights.distribution,
+                       selectors.lights.seed, bench.camera_name(), selectors.width, selectors.height,
+                       bench.device().info().name);
+}
+
+void write_rows(const std::vector<Verdict>& verdicts, Workbench& bench, const VerifyArguments& arguments) {
+    if (arguments.stats.empty()) return;
+    std::vector<nlohmann::ordered_json> rows;
+    for (const Verdict& verdict : verdicts)
+        rows.push_back(
+            statistics_row(arguments.selectors, bench.camera_name(), bench.device().info(), verdict.measurement));
+    write_statistics(arguments.stats, rows);
+}
+
+std::vector<Verdict> judge_all(Workbench& bench, const VerifyArguments& arguments) {
+    Progress progress;
+    const Truth truth = find_truth(bench, progress);
+    std::vector<Verdict> verdicts;
+    for (const std::string& name : arguments.techniques)
+        verdicts.push_back(judge(bench, name, truth, name == arguments.remove_one_light, progress));
+    return verdicts;
+}
+
+} // namespace
+
+int run_verify(const VerifyArguments& arguments) {
+    if (!arguments.stats.empty()) check_statistics_path(arguments.stats);
+    Workbench bench(arguments.selectors);
+    const std::vector<Verdict> verdicts = judge_all(bench, arguments);
+    fmt::print("{}{}", heading(arguments.selectors, bench), table_of(verdicts));
+    int code = kDone;
+    for (const Verdict& verdict : verdicts) {
+        if (verdict.right()) continue;
+        fmt::print(stderr, "manylights: {}\n", failure(verdict, bench));
+        code = kCheckFailed;
+    }
+    write_rows(verdicts, bench, arguments);
+    return std::max(code, report_validation(bench.device()));
+}
+
+} // namespace manylights::lab::app

@@ -1,0 +1,69 @@
+#include "lab/app/workbench.h"
+
+#include "lab/scene/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace manylights::lab::app {
+namespace {
+
+constexpr double kGibibyte = 1024.0 * 1024.0 * 1024.0;
+
+// What any technique holds on the device at the least: two vec4 per point, a 64-byte record and an RGBA float per
+// pixel, and per light its record. Asked for up front, since a software device would rather swap than refuse.
+void check_memory(const Selectors& selectors, const Scene& scene, const gpu::DeviceInfo& device) {
+    const std::uint64_t pixels = std::uint64_t{selectors.width} * selectors.height;
+    const std::uint64_t bytes = pixels * (32 + 64 + 16) + std::uint64_t{selectors.lights.count} * 32 +
+                                scene.vertices.size() * sizeof(Vertex) + scene.indices.size() * 4;
+    if (bytes <= device.memory_bytes) return;
+    throw InputError(fmt::format("--size {}x{} with {} lights: needs at least {:.1f} GiB, '{}' has {:.1f} GiB",
+                                 selectors.width, selectors.height, selectors.lights.count,
+                                 static_cast<double>(bytes) / kGibibyte, device.name,
+                                 static_cast<double>(device.memory_bytes) / kGibibyte));
+}
+
+gpu::DeviceOptions device_options(const Selectors& selectors) { return {selectors.device, selectors.validation}; }
+
+PointBuffer draw_points(const Selectors& selectors, const Scene& scene, const Camera& camera, gpu::Device& device,
+                        Renderer& renderer) {
+    check_memory(selectors, scene, device.info());
+    return renderer.render_points(camera, selectors.width, selectors.height);
+}
+
+} // namespace
+
+Workbench::Workbench(const Selectors& selectors)
+    : selectors_(selectors), scene_(load_scene(selectors.scene, selectors.detail)),
+      camera_(find_camera(scene_, selectors.camera)), lights_(make_lights(scene_, camera_, selectors.lights)),
+      device_(device_options(selectors)), renderer_(device_, scene_),
+      points_(draw_points(selectors, scene_, camera_, device_, renderer_)), frame_{scene_,          camera_,
+                                                                                   selectors.width, selectors.height,
+                                                                                   lights_.lights,  points_} {}
+
+std::string Workbench::camera_name() const { return selectors_.camera.empty() ? camera_.name : selectors_.camera; }
+
+std::vector<std::uint8_t> Workbench::shaded_mask() const {
+    std::vector<std::uint8_t> mask;
+    for (const PointPosition& point : points_.download_positions()) mask.push_back(point.depth > 0.0f ? 1 : 0);
+    return mask;
+}
+
+OptionValues Workbench::options_for(const std::string& technique) const {
+    OptionValues options;
+    for (const TechniqueInfo& info : technique_infos()) {
+        if (info.name != technique) continue;
+        for (const auto& setting : selectors_.settings)
+            if (std::any_of(info.options.begin(), info.options.end(),
+                            [&](const OptionInfo& option) { return option.key == setting.first; }))
+                options.push_back(setting);
+    }
+    return options;
+}
+
+std::unique_ptr<Technique> Workbench::make(const std::string& technique) {
+    return make_technique(device_, technique, options_for(technique));
+}
+
+} // namespace manylights::lab::app

@@ -1,0 +1,40 @@
+#pragma once
+// Everything that a technique needs in place: scene, camera, lights, device and the points of the view.
+
+#include "lab/app/arguments.h"
+#include "lab/gpu/device.h"
+#include "lab/renderer/point_buffer.h"
+#include "lab/renderer/renderer.h"
+
+namespace manylights::lab::app {
+
+class Workbench {
+  public:
+    /// Throws InputError or DeviceError. Input is read before the device is opened.
+    explicit Workbench(const Selectors& selectors);
+    Workbench(const Workbench&) = delete;
+    Workbench& operator=(const Workbench&) = delete;
+
+    gpu::Device& device() { return device_; }
+    const Scene& scene() const { return scene_; }
+    const LightSet& lights() const { return lights_; }
+    const Frame& frame() const { return frame_; }
+    std::string camera_name() const;               ///< as selected; the scene's default camera by its own name
+    std::vector<std::uint8_t> shaded_mask() const; ///< 1 per pixel with a surface
+
+    /// The options among the given ones that the technique has.
+    OptionValues options_for(const std::string& technique) const;
+    std::unique_ptr<Technique> make(const std::string& technique);
+
+  private:
+    Selectors selectors_;
+    Scene scene_;
+    Camera camera_;
+    LightSet lights_;
+    gpu::Device device_;
+    Renderer renderer_;
+    PointBuffer points_;
+    Frame frame_;
+};
+
+} // namespace manylights::lab::app
