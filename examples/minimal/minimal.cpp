@@ -4,7 +4,7 @@
 //
 // Reads from the bottom up: main, then draw, whose [integration] part is all that manylights needs. The rest is plain
 // Vulkan 1.3 and would be the same with any other way to light a scene.
-#include <manylights/manylights.h>
+#include <manylights/manylights.hpp>
 
 #include <vulkan/vulkan.h>
 
@@ -42,9 +42,9 @@ void check(VkResult result, const char* what) {
     throw std::runtime_error(std::string(what) + " failed: VkResult " + std::to_string(result));
 }
 
-void check(ManylightsStatus status, const ManylightsReport& report) {
-    if (status == MANYLIGHTS_OK) return;
-    throw std::runtime_error(std::string(manylights_status_name(status)) + ": " + report.field + " " + report.rule);
+void check(const manylights::Status& status) {
+    if (status) return;
+    throw std::runtime_error(std::string(status.name()) + ": " + status.report.field + " " + status.report.rule);
 }
 
 // ---- Lights --------------------------------------------------------------------------------------------------------
@@ -370,23 +370,19 @@ void draw(const char* path) {
     const Gpu gpu = open_gpu();
 
     // [integration]
-    ManylightsReport report = {};
-    ManylightsBuilder* builder = nullptr;
-    check(manylights_create(nullptr, &builder, &report), report);
+    manylights::Builder builder;
+    check(builder.create());
 
     // Every frame: exact sizes, then straight into mapped memory.
     const ManylightsLights input = {sizeof input, &lights[0].position, sizeof(Light), light_count, 0.0f};
     ManylightsSizes sizes;
-    check(manylights_plan(builder, &camera.view, 1, &input, &sizes, &report), report);
+    check(builder.plan({&camera.view, 1}, input, sizes));
     const Buffer views = make_buffer(gpu, sizes.views), slice_edges = make_buffer(gpu, sizes.slice_edges);
     const Buffer cells = make_buffer(gpu, sizes.cells), nodes = make_buffer(gpu, sizes.nodes);
     const Buffer references = make_buffer(gpu, sizes.references);
     const ManylightsBuffers output = {views.mapped, slice_edges.mapped, cells.mapped, nodes.mapped, references.mapped};
-    check(manylights_write(builder, &output, &report), report);
+    check(builder.write(output));
     // [/integration]
-    ManylightsStats stats;
-    manylights_stats(builder, &stats);
-    manylights_destroy(builder);
 
     const Buffer light_buffer = make_buffer(gpu, lights.size() * sizeof(Light));
     std::copy(lights.begin(), lights.end(), static_cast<Light*>(light_buffer.mapped));
@@ -396,6 +392,7 @@ void draw(const char* path) {
     run(gpu, buffers, camera.constants);
     if (stbi_write_png(path, kWidth, kHeight, 4, pixels.mapped, 4 * kWidth) == 0)
         throw std::runtime_error(std::string("cannot write ") + path);
+    const ManylightsStats stats = builder.stats();
     std::printf("%s: %ux%u, %u lights (%llu in view), %llu bytes of structure, %s\n", path, kWidth, kHeight,
                 light_count, static_cast<unsigned long long>(stats.visible_lights),
                 static_cast<unsigned long long>(stats.bytes), gpu.properties.deviceName);
