@@ -25,8 +25,8 @@ layout(std430, binding = 4) readonly buffer References { uint d[]; } references;
 layout(std430, binding = 5) readonly buffer Lights { Light d[]; } lights;
 layout(std430, binding = 6) writeonly buffer Pixels { uint d[]; } pixels;
 
-// The direction of a ray is forward + x * right + y * down, with x and y from -1 to 1 over the image. forward has length
-// one and the other two are at right angles to it, so the distance along that direction is the view depth.
+// The direction of a ray is forward + x * right + y * down, with x and y from -1 to 1 over the image. forward has
+// length one and the other two are at right angles to it, so the distance in such lengths is the view depth.
 layout(push_constant) uniform Camera {
     vec4 right;
     vec4 down;
