@@ -51,16 +51,16 @@ bool memory_barriers_do_not_execute(Device& device) {
     return true;
 }
 
-[[noreturn]] void refuse(const Device& device, const char* fault) {
-    throw DeviceError("the device " + device.info().name + " (" + device.info().version + ") computes wrong: " + fault +
-                      "; run scripts/setup for a driver that does not");
-}
-
 } // namespace
 
 void probe_behaviour(Device& device) {
-    if (!loops_complete(device)) refuse(device, "its loops end after 65,535 iterations");
-    if (!memory_barriers_do_not_execute(device)) refuse(device, "its memory barriers act as execution barriers");
+    const bool loops = loops_complete(device);
+    const bool barriers = memory_barriers_do_not_execute(device);
+    if (loops && barriers) return;
+    std::string faults = loops ? "" : "its loops end after 65,535 iterations";
+    if (!barriers) faults += std::string(loops ? "" : " and ") + "its memory barriers act as execution barriers";
+    throw DeviceError("the device " + device.info().name + " (" + device.info().version +
+                      ") computes wrong: " + faults + "; run scripts/setup for a driver that does not");
 }
 
 } // namespace manylights::lab::gpu

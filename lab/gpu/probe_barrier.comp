@@ -1,6 +1,7 @@
 #version 450
-// The last invocations pass a memory barrier that the others do not. It must not count as the execution barrier that
-// all of them pass next: each reads what the one 64 places further has written.
+// The last invocations pass memory barriers that the others do not: in a loop, since the faulty drivers run the body of
+// every `if` with the inactive lanes masked off. It must not count as the execution barrier that all of them pass next:
+// each reads what the one 64 places further has written.
 layout(local_size_x = 128) in;
 layout(set = 0, binding = 0) buffer Result { uint d[]; } result;
 layout(push_constant) uniform Push { uint first_divergent; };
@@ -11,7 +12,8 @@ void main() {
     uint i = gl_LocalInvocationIndex;
     values[i] = 0u;
     barrier();
-    if (i >= first_divergent) memoryBarrierShared();
+    uint rounds = i >= first_divergent ? 3u : 0u;
+    for (uint round = 0u; round < rounds; ++round) memoryBarrierShared();
     values[i] = i + 1u;
     barrier();
     result.d[i] = values[(i + 64u) % 128u];

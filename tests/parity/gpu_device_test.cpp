@@ -100,7 +100,8 @@ TEST(GpuDeviceDeathTest, refuses_a_driver_that_computes_wrong) {
     if (std::none_of(infos.begin(), infos.end(), is_known_faulty))
         GTEST_SKIP() << "the system's software driver is not one of the faulty ones";
     EXPECT_EXIT(open_with_drivers(manifest), testing::ExitedWithCode(3),
-                "<the device llvmpipe [^\n]* computes wrong: [^\n]*run scripts/setup[^\n]*>");
+                "<the device llvmpipe [^\n]* computes wrong: its loops [^\n]* and its memory barriers [^\n]*run "
+                "scripts/setup[^\n]*>");
 }
 
 TEST(GpuDeviceDeathTest, gives_up_on_work_that_does_not_end) {
