@@ -1,13 +1,10 @@
 #include "src/build/builder.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace manylights::detail {
 
 namespace {
-
-constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max(); // of references, nodes, cells
 
 enum class Fit { kFits, kOverBudget, kTooLarge, kOutOfMemory };
 
@@ -46,10 +43,11 @@ bool within_budget(const ManylightsBuilder& builder) {
 // to do: then only what no buffer can hold stops it.
 Fit bin_views(ManylightsBuilder& builder, bool has_to_do) {
     Counts& counts = builder.counts;
-    if (counts.cells > kMost) return Fit::kTooLarge;
+    const std::uint64_t most = builder.most_elements;
+    if (counts.cells > most) return Fit::kTooLarge;
     for (std::uint32_t v = 0; v < builder.view_count; ++v) {
-        counts.references += count_references(builder.grids[v], builder.sorted.data(), kMost);
-        if (counts.references > kMost) return Fit::kTooLarge;
+        counts.references += count_references(builder.grids[v], builder.sorted.data(), most);
+        if (counts.references > most) return Fit::kTooLarge;
     }
     if (!has_to_do && !within_budget(builder)) return Fit::kOverBudget;
 
@@ -58,7 +56,7 @@ Fit bin_views(ManylightsBuilder& builder, bool has_to_do) {
                       builder.sorted.data(), builder.bins, builder.nodes))
         return Fit::kOutOfMemory;
     counts.nodes = builder.nodes.offsets[counts.cells];
-    if (counts.nodes > kMost) return Fit::kTooLarge;
+    if (counts.nodes > most) return Fit::kTooLarge;
     return within_budget(builder) ? Fit::kFits : Fit::kOverBudget;
 }
 
@@ -95,7 +93,7 @@ void take_stats(ManylightsBuilder& builder, bool over_budget) {
 Outcome arrange(ManylightsBuilder& builder) {
     if (!sort_views(builder)) return out_of_memory("lights");
     Fit fit = Fit::kTooLarge;
-    if (builder.sorted.size() <= kMost) {
+    if (builder.sorted.size() <= builder.most_elements) {
         for (std::uint32_t tile_px = builder.settings.tile_px;; tile_px *= 2) {
             lay_out_views(builder, tile_px);
             const bool coarsest = is_coarsest(builder);

@@ -18,6 +18,7 @@ struct ManylightsBuilder {
     manylights::detail::Grid grids[manylights::detail::kMaxViews];
     std::uint32_t view_count = 0;
     bool planned = false;
+    std::uint64_t most_elements = UINT32_MAX; // of references, nodes and cells: their offsets have 32 bits
 
     manylights::detail::Array<manylights::detail::SortItem> sort_items[2];
     manylights::detail::Array<manylights::detail::VisibleLight> sorted; // of all views, one after the other
