@@ -10,7 +10,7 @@
 
 namespace manylights::paper {
 
-/// One reference on its way to its cell: `light` is the place of its BoundedLight.
+/// One reference on its way to its cell: `light` is the place of its CellLight.
 struct Scatter {
     std::uint32_t cell, light;
 };
@@ -19,17 +19,16 @@ struct Scatter {
 constexpr std::size_t kScatterPadding = 3;
 
 /// Lists the references of the lights, light after light.
-void write_scatter(const BoundedLight* lights, std::size_t light_count, const Grid& grid, Scatter* scatter);
+void write_scatter(const CellBox* boxes, std::size_t light_count, const Grid& grid, Scatter* scatter);
 
-/// Counts the references of each cell, and places the cells one after the other from `first_reference` on. The counts
-/// become cursors: each cell's count is its first until it is filled.
+/// Counts the references of each cell, and places the cells one after the other from `first_reference` on. `cursors`
+/// are the cells' firsts, too.
 void place_cells(const Scatter* scatter, std::size_t count, std::uint32_t first_reference, MlCell* cells,
-                 std::size_t cell_count);
+                 std::uint32_t* cursors, std::size_t cell_count);
 
-/// Writes to each cell's references the places of its lights in `lights`, ascending, or their indices.
-void fill_places(const Scatter* scatter, std::size_t count, MlCell* cells, std::size_t cell_count,
-                 std::uint32_t* references);
-void fill_indices(const Scatter* scatter, std::size_t count, const BoundedLight* lights, MlCell* cells,
-                  std::size_t cell_count, std::uint32_t* references);
+/// Writes to each cell's references the places of its lights, ascending, or their indices. Moves the cursors.
+void fill_places(const Scatter* scatter, std::size_t count, std::uint32_t* cursors, std::uint32_t* references);
+void fill_indices(const Scatter* scatter, std::size_t count, const CellLight* lights, std::uint32_t* cursors,
+                  std::uint32_t* references);
 
 } // namespace manylights::paper

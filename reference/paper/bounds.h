@@ -7,33 +7,34 @@
 
 namespace manylights::paper {
 
-/// Positions of one image axis in tiles: slope * scale + center, over what is beyond reach on either side.
-struct TileAxis {
-    float scale, first_center, last_center;
-    std::uint32_t tiles;
-};
-
 struct Grid {
-    std::uint32_t tile_px;
+    std::uint32_t tile_px, tiles_x, tiles_y;
     float widening_px; ///< tiles are widened by this much, beyond guard_px
-    TileAxis x, y;
+
+    /// Of a rectangle's left, top, right and bottom side: slope * scale + offset is its tile, that of the right and the
+    /// bottom side one further; clamped to [0, end].
+    float scale[4], offset[4], end[4];
 };
 
 Grid make_grid(const Camera& camera, std::uint32_t tile_px);
 
-/// A light's box of cells and its depth range, widened outward.
-struct BoundedLight {
+/// A light's box of cells.
+struct CellBox {
     std::uint32_t first_cell; ///< cells count tile x fastest, then tile y, then slice
     std::uint16_t columns, rows;
     std::uint32_t slices;
-    std::uint32_t index;
-    float min_depth, max_depth;
 
     std::uint64_t cell_count() const { return std::uint64_t{slices} * rows * columns; }
 };
 
-/// True: `bounded` holds the light's box; false: it touches no tile.
-bool bound(const Camera& camera, const Grid& grid, const SliceTable& slices, const CulledLight& light,
-           BoundedLight& bounded);
+/// What the cells hold of a light; apart from the box, since each is read without the other.
+struct CellLight {
+    float min_depth, max_depth; ///< widened outward
+    std::uint32_t index;
+};
+
+/// True: the light's box and what its cells hold; false: it touches no tile.
+bool bound(const Camera& camera, const Grid& grid, const SliceTable& slices, const CulledLight& light, CellBox& box,
+           CellLight& cell_light);
 
 } // namespace manylights::paper

@@ -94,14 +94,14 @@ void PaperPipeline::build_view(const ManylightsView& view, const ManylightsLight
 }
 
 void PaperPipeline::place_view(const Camera& camera, const Grid& grid, const Options& options) {
-    const std::uint64_t cell_count = std::uint64_t{grid.x.tiles} * grid.y.tiles * slices_.count();
+    const std::uint64_t cell_count = std::uint64_t{grid.tiles_x} * grid.tiles_y * slices_.count();
     if (cell_count_ + cell_count > kMost) throw std::length_error("more than 2^32 - 1 cells");
     MlView view{};
     view.width = camera.width;
     view.height = camera.height;
     view.tile_px = grid.tile_px;
-    view.tiles_x = grid.x.tiles;
-    view.tiles_y = grid.y.tiles;
+    view.tiles_x = grid.tiles_x;
+    view.tiles_y = grid.tiles_y;
     view.slice_count = slices_.count();
     view.slice_offset = 0;
     view.cell_offset = std::uint32_t(cell_count_);
@@ -128,15 +128,18 @@ void PaperPipeline::sort_lights(std::uint32_t count, const Options& options) {
 void PaperPipeline::bound_lights(const Camera& camera, const Grid& grid, std::uint32_t count, bool sorted) {
     constexpr std::uint32_t kAhead = 16; // sorted lights lie anywhere: fetch them in time
     const CulledLight* culled = culled_.data();
-    BoundedLight* bounded = bounded_.require(count + std::size_t{1}); // one beyond: an empty box is written, too
+    // One beyond: an empty box is written, too.
+    CellBox* boxes = boxes_.require(count + std::size_t{1});
+    CellLight* cell_lights = cell_lights_.require(count + std::size_t{1});
     std::uint32_t kept = 0;
     std::uint64_t cells = 0;
     float farthest = 0.0f;
     for (std::uint32_t i = 0; i < count; ++i) {
         if (sorted) prefetch(culled + order_[std::min(i + kAhead, count - 1)].rank);
-        const bool touches = bound(camera, grid, slices_, culled[sorted ? order_[i].rank : i], bounded[kept]);
-        cells += touches ? bounded[kept].cell_count() : 0;
-        farthest = std::max(farthest, bounded[kept].max_depth);
+        const CulledLight& light = culled[sorted ? order_[i].rank : i];
+        const bool touches = bound(camera, grid, slices_, light, boxes[kept], cell_lights[kept]);
+        cells += touches ? boxes[kept].cell_count() : 0;
+        farthest = std::max(farthest, cell_lights[kept].max_depth);
         kept += touches;
     }
     bounded_count_ = kept;
@@ -145,27 +148,27 @@ void PaperPipeline::bound_lights(const Camera& camera, const Grid& grid, std::ui
 }
 
 void PaperPipeline::bin_lights(const Grid& grid, MlCell* cells, std::uint32_t cell_count, bool as_indices) {
-    const BoundedLight* bounded = bounded_.data();
     const std::uint64_t first = reference_count_, end = first + scatter_count_;
     if (end > kMost) throw std::length_error("more than 2^32 - 1 references");
     Scatter* scatter = scatter_.require(scatter_count_ + kScatterPadding);
-    write_scatter(bounded, bounded_count_, grid, scatter);
-    place_cells(scatter, scatter_count_, std::uint32_t(first), cells, cell_count);
+    std::uint32_t* cursors = cursors_.require(cell_count);
+    write_scatter(boxes_.data(), bounded_count_, grid, scatter);
+    place_cells(scatter, scatter_count_, std::uint32_t(first), cells, cursors, cell_count);
     std::uint32_t* references = references_.require(end, first);
     reference_count_ = end;
-    if (!as_indices) return fill_places(scatter, scatter_count_, cells, cell_count, references);
-    fill_indices(scatter, scatter_count_, bounded, cells, cell_count, references);
+    if (!as_indices) return fill_places(scatter, scatter_count_, cursors, references);
+    fill_indices(scatter, scatter_count_, cell_lights_.data(), cursors, references);
     for (std::uint32_t cell = 0; cell < cell_count; ++cell) buffers_.list_cells += cells[cell].count != 0;
 }
 
 // Fetches the cell's depth ranges, and turns its references from places into light indices. Neighbours in a cell are
 // neighbours in depth, so this reads a window of the sorted lights.
 CellLights PaperPipeline::take_cell(const MlCell& cell) {
-    const BoundedLight* bounded = bounded_.data();
+    const CellLight* cell_lights = cell_lights_.data();
     std::uint32_t* references = references_.data() + cell.first;
     DepthRange* ranges = ranges_.require(cell.count);
     for (std::uint32_t i = 0; i < cell.count; ++i) {
-        const BoundedLight& light = bounded[references[i]];
+        const CellLight light = cell_lights[references[i]];
         ranges[i] = {light.min_depth, light.max_depth};
         references[i] = light.index;
     }

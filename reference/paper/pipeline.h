@@ -64,11 +64,13 @@ class PaperPipeline {
     FlatArray<CulledLight> culled_;
     RadixSort sort_;
     const SortPair* order_ = nullptr;
-    FlatArray<BoundedLight> bounded_;
+    FlatArray<CellBox> boxes_;
+    FlatArray<CellLight> cell_lights_;
     std::uint32_t bounded_count_ = 0;
     float farthest_ = 0.0f;           ///< end of the farthest light's depth range
     std::uint64_t scatter_count_ = 0; ///< cells of all boxes
     FlatArray<Scatter> scatter_;
+    FlatArray<std::uint32_t> cursors_;
     FlatArray<DepthRange> ranges_; ///< of one cell's lights
     TreeBuilder tree_builder_;
 
