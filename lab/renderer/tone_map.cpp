@@ -14,7 +14,9 @@ using Color = std::array<float, 3>;
 constexpr float kMiddleGrey = 0.18f;
 // Pixels darker than this part of the brightest ones count as if they were that bright: a dark hall with one lamp keeps
 // its darkness.
-constexpr float kDarkest = 1.0f / 256.0f;
+constexpr float kDarkest = 1.0f / 64.0f;
+// Nor are the brightest ones exposed beyond this, where the filmic curve reaches 0.9.
+constexpr float kBrightest = 2.0f;
 constexpr Color kSkyTop{0.004f, 0.007f, 0.018f};
 constexpr Color kSkyBottom{0.030f, 0.038f, 0.060f};
 constexpr std::array<std::uint8_t, 3> kNotFinite{255, 0, 255}; // a mistake should be seen
@@ -57,10 +59,12 @@ float auto_exposure(std::span<const float> radiance, std::span<const std::uint8_
     if (values.empty()) return 1.0f;
     const auto bright = values.begin() + std::ptrdiff_t(values.size() - 1 - values.size() / 50);
     std::nth_element(values.begin(), bright, values.end());
-    const float darkest = std::max(*bright * kDarkest, 1e-20f);
+    const float brightest = *bright;
+    const float darkest = std::max(brightest * kDarkest, 1e-20f);
     double sum = 0.0;
     for (const float value : values) sum += std::log(double(std::max(value, darkest)));
-    return float(double(kMiddleGrey) / std::exp(sum / double(values.size())));
+    const double middle = std::exp(sum / double(values.size()));
+    return float(std::min(double(kMiddleGrey) / middle, double(kBrightest) / double(brightest)));
 }
 
 Picture tone_map(std::span<const float> radiance, std::span<const std::uint8_t> shaded, std::uint32_t width,

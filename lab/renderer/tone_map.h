@@ -13,8 +13,9 @@ struct Picture {
     std::vector<std::uint8_t> rgb; ///< sRGB, row by row, top row first
 };
 
-/// The exposure that puts the log-average luminance of the shaded pixels at middle grey. Sky and pixels that no light
-/// reaches do not count; 1 where nothing is left. shaded: one element per pixel, 0 is sky.
+/// The exposure that puts the log-average luminance of the shaded pixels at middle grey, or less where that would burn
+/// out more than 2% of them. Sky and black pixels do not count; 1 where nothing is left. shaded: one element per pixel,
+/// 0 is sky.
 float auto_exposure(std::span<const float> radiance, std::span<const std::uint8_t> shaded);
 
 /// radiance: linear RGB per pixel. Sky pixels become a gradient that is dark at the top; the others are exposed and

@@ -131,6 +131,13 @@ TEST(AutoExposure, puts_an_even_picture_at_middle_grey) {
         EXPECT_NEAR(auto_exposure(gray(100, value), shaded) * value, 0.18f, 1e-4f);
 }
 
+TEST(AutoExposure, does_not_burn_out_the_lit_part_of_a_dark_picture) {
+    std::vector<float> radiance = gray(100, 1e-3f);
+    for (std::size_t i = 0; i < 30; ++i) radiance[i] = 5.0f;
+    const float exposure = auto_exposure(radiance, std::vector<std::uint8_t>(100, 1));
+    EXPECT_FLOAT_EQ(exposure * 5.0f, 2.0f);
+}
+
 TEST(AutoExposure, does_not_count_the_sky_and_the_unlit) {
     std::vector<std::uint8_t> shaded(100, 1);
     std::vector<float> radiance = gray(100, 2.0f);
