@@ -159,6 +159,19 @@ std::string usage_error(const CLI::ParseError& error, const CLI::App& app) {
     return fmt::format("usage: {}; see `{} --help`", text, command);
 }
 
+void check_picture_name(const std::string& option, const std::string& path) {
+    if (!path.ends_with(".png") && !path.ends_with(".exr"))
+        refuse(option, path, "a file name that ends in .png or .exr");
+}
+
+void check_render_paths(const RenderArguments& render) {
+    check_picture_name("--out", render.out);
+    if (render.panels.empty()) return;
+    check_picture_name("--panels", render.panels);
+    if (render.panels.find("{}") == std::string::npos)
+        refuse("--panels", render.panels, "a file name with {} where the technique's name goes");
+}
+
 RenderArguments finish_render(RenderArguments render, const Typed& typed, const std::string& technique) {
     read_selectors(typed, render.selectors);
     render.view = static_cast<ViewKind>(choice("--view", typed.view, kViewNames));
@@ -169,9 +182,8 @@ RenderArguments finish_render(RenderArguments render, const Typed& typed, const 
     } else {
         render.techniques = read_techniques(typed.techniques);
     }
-    if (!render.panels.empty() && render.panels.find("{}") == std::string::npos)
-        refuse("--panels", render.panels, "a file name with {} where the technique's name goes");
     check_setting_keys(render.selectors, render.techniques);
+    check_render_paths(render);
     return render;
 }
 
@@ -189,6 +201,7 @@ void add_render(CLI::App& app, RenderArguments& render, Typed& typed, std::strin
     CLI::Option* one = app.add_option("--technique", technique, "see `list techniques` [hybrid_light_trees]");
     app.add_option("--techniques", typed.techniques, "NAME,NAME,... or all: pictures side by side on one scale")
         ->delimiter(',')
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->excludes(one);
     app.add_option(
         "--view", typed.view,
@@ -205,7 +218,9 @@ void add_render(CLI::App& app, RenderArguments& render, Typed& typed, std::strin
 
 void add_verify(CLI::App& app, VerifyArguments& verify, Typed& typed) {
     add_selectors(app, verify.selectors, typed);
-    app.add_option("--techniques", typed.techniques, "NAME,NAME,... or all [all]")->delimiter(',');
+    app.add_option("--techniques", typed.techniques, "NAME,NAME,... or all [all]")
+        ->delimiter(',')
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_option("--stats", verify.stats, "FILE.json: work, bytes, times and missing points");
     // For tests of the proof itself: an empty group keeps it out of the help.
     app.add_option("--remove-one-light", verify.remove_one_light)->group("");
@@ -220,7 +235,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
     app.set_version_flag("--version",
                          fmt::format("manylights {}.{}", MANYLIGHTS_VERSION_MAJOR, MANYLIGHTS_VERSION_MINOR));
     app.require_subcommand(1);
-    app.fallthrough(false);
+    app.option_defaults()->take_last(); // so that a script's settings can be overridden
 
     RenderArguments render;
     VerifyArguments verify;

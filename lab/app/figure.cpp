@@ -90,7 +90,7 @@ void draw_ticks(Canvas& figure, const Bar& bar, const HeatScale& scale, int text
 void draw_heat_legend(Canvas& figure, const Layout& layout, const HeatScale& scale) {
     const int text = layout.text, margin = 8 * text;
     const int title_y = layout.legend_y() + 8 * text;
-    const std::string over = scale.largest > scale.top ? fmt::format("up to {}", short_number(scale.largest)) : "";
+    const std::string over = scale.largest > scale.top ? fmt::format("max {}", short_number(scale.largest)) : "";
     const int over_width = over.empty() ? 0 : (text_width(over) + 6) * text;
     const Bar bar{margin, title_y + 14 * text, std::min(layout.width, 900 * text) - 2 * margin - over_width, 10 * text};
 

@@ -28,6 +28,7 @@ struct Verdict {
 };
 
 struct Truth {
+    std::unique_ptr<Technique> technique; ///< brute force, prepared
     std::vector<PixelRecord> records;
     std::vector<float> radiance;
     std::vector<std::uint8_t> mask;
@@ -35,10 +36,10 @@ struct Truth {
 
 Truth find_truth(Workbench& bench, Progress& progress) {
     progress.at(fmt::format("{}: testing every light at every pixel", kTruth));
-    const std::unique_ptr<Technique> technique = make_technique(bench.device(), kTruth, {});
-    technique->prepare(bench.frame());
     Truth truth;
-    truth.records = technique->record(bench.frame());
+    truth.technique = bench.make(kTruth);
+    truth.technique->prepare(bench.frame());
+    truth.records = truth.technique->record(bench.frame());
     truth.radiance = radiance_of(truth.records);
     truth.mask = bench.shaded_mask();
     return truth;
@@ -50,25 +51,30 @@ void damage(Technique& technique, const Frame& frame) {
             fmt::format("--remove-one-light '{}': there is no reference to remove", technique.info().name));
 }
 
-Verdict judge(Workbench& bench, const std::string& name, const Truth& truth, bool remove_one, Progress& progress) {
-    progress.at(fmt::format("{}: building and shading", name));
+Verdict judge(Workbench& bench, Technique& technique, const std::vector<PixelRecord>& records, const Truth& truth) {
     const Frame& frame = bench.frame();
-    const std::unique_ptr<Technique> technique = bench.make(name);
-    technique->prepare(frame);
-    if (remove_one) damage(*technique, frame);
-    const std::vector<PixelRecord> records = technique->record(frame);
-    const std::vector<float> radiance = technique->shade(frame);
-
+    const std::string& name = technique.info().name;
+    const std::vector<float> radiance = technique.shade(frame);
     Verdict verdict;
     verdict.result = compare(truth.records, records, frame.width);
     verdict.image = image_difference(truth.radiance, radiance, truth.mask, frame.width, frame.height);
     verdict.measurement = {name,
                            bench.options_for(name),
                            summarize(records),
-                           technique->stats(),
+                           technique.stats(),
                            light_set_hash(records),
                            verdict.result.missing_points};
     return verdict;
+}
+
+Verdict judge(Workbench& bench, const std::string& name, const Truth& truth, bool remove_one, Progress& progress) {
+    progress.at(fmt::format("{}: building and shading", name));
+    // The truth is not computed twice; its image is still checked against its records.
+    if (name == kTruth && !remove_one) return judge(bench, *truth.technique, truth.records, truth);
+    const std::unique_ptr<Technique> technique = bench.make(name);
+    technique->prepare(bench.frame());
+    if (remove_one) damage(*technique, bench.frame());
+    return judge(bench, *technique, technique->record(bench.frame()), truth);
 }
 
 std::string verdict_text(const Verdict& verdict) {

@@ -95,6 +95,13 @@ TEST(Arguments, verify_takes_all_techniques_or_a_list) {
     EXPECT_EQ(two.remove_one_light, "clustered");
 }
 
+TEST(Arguments, the_last_of_a_repeated_option_counts) {
+    const auto render = std::get<RenderArguments>(
+        parse_command_line({"render", "--out", "a.png", "--size", "8x8", "--size", "9x9", "--out", "b.png"}));
+    EXPECT_EQ(render.selectors.width, 9u);
+    EXPECT_EQ(render.out, "b.png");
+}
+
 TEST(Arguments, list_names_what) {
     EXPECT_EQ(std::get<ListArguments>(parse_command_line({"list", "devices"})).what, ListKind::devices);
     EXPECT_EQ(refusal({"list", "lamps"}), "list 'lamps': must be one of scenes, techniques, suites, devices");
@@ -129,6 +136,14 @@ TEST(Arguments, names_are_refused_with_the_choices) {
               std::string::npos);
 }
 
+TEST(Arguments, pictures_have_an_extension_that_says_their_format) {
+    EXPECT_EQ(render_refusal({"--out", "a.jpg"}), "--out 'a.jpg': must be a file name that ends in .png or .exr");
+    EXPECT_EQ(render_refusal({"--panels", "{}.gif"}),
+              "--panels '{}.gif': must be a file name that ends in .png or .exr");
+    EXPECT_EQ(render_refusal({"--panels", "a.png"}),
+              "--panels 'a.png': must be a file name with {} where the technique's name goes");
+}
+
 TEST(Arguments, techniques_are_not_given_twice) {
     EXPECT_EQ(refusal({"verify", "--techniques", "clustered,clustered"}), "--techniques 'clustered': is given twice");
 }
@@ -138,7 +153,7 @@ TEST(Arguments, usage_errors_are_one_line_with_a_hint) {
                                                       {"paint"},
                                                       {"render"},
                                                       {"render", "--out"},
-                                                      {"render", "--out", "a", "--colour"},
+                                                      {"render", "--out", "a.png", "--colour"},
                                                       {"verify", "surplus"}}) {
         const std::string text = refusal(arguments);
         EXPECT_TRUE(text.starts_with("usage: ")) << text;

@@ -1,0 +1,127 @@
+"""What the command makes of good input: files, tables, exit codes; and that verify sees a lost light."""
+
+import json
+import os
+import re
+import struct
+import unittest
+
+from harness import SMALL, CommandTest
+
+CELLS = ("clustered", "tiled_light_trees", "hybrid_light_trees")
+
+
+def png_size(path):
+    with open(path, "rb") as file:
+        head = file.read(24)
+    assert head[:8] == b"\x89PNG\r\n\x1a\n"
+    return struct.unpack(">II", head[16:24])
+
+
+class Render(CommandTest):
+    def test_every_view_as_a_picture(self):
+        for view in ("shaded", "tested", "affecting", "nodes", "references", "structure"):
+            self.assert_done("render", *SMALL, "--view", view, "--out", "a.png")
+            width, height = png_size(self.path("a.png"))
+            if view == "shaded":
+                self.assertEqual((width, height), (64, 36))
+            else:
+                self.assertGreater(height, 36)
+            self.assertEqual(os.listdir(self.folder), ["a.png"])
+
+    def test_every_view_as_plain_numbers(self):
+        for view in ("shaded", "tested", "structure"):
+            self.assert_done("render", *SMALL, "--view", view, "--out", "a.exr")
+            with open(self.path("a.exr"), "rb") as file:
+                self.assertEqual(file.read(4), b"\x76\x2f\x31\x01")
+
+    def test_panels_side_by_side(self):
+        self.assert_done("render", *SMALL, "--techniques", ",".join(CELLS), "--view", "tested", "--out", "a.png",
+                         "--stats", "a.json")
+        self.assertGreater(png_size(self.path("a.png"))[0], 3 * 64)
+        with open(self.path("a.json")) as file:
+            self.assertEqual([row["technique"] for row in json.load(file)], list(CELLS))
+
+    def test_statistics(self):
+        self.assert_done("render", *SMALL, "--technique", "clustered", "--set", "tile_size=16", "--out", "a.png",
+                         "--stats", "a.json")
+        with open(self.path("a.json")) as file:
+            row = json.load(file)
+        self.assertEqual(row["technique"], "clustered")
+        self.assertEqual(row["options"], {"tile_size": "16"})
+        self.assertEqual((row["width"], row["height"], row["lights"]), (64, 36, 500))
+        self.assertGreater(row["affecting_mean"], 0)
+        self.assertGreaterEqual(row["tested_mean"], row["affecting_mean"])
+        self.assertGreater(row["structure_bytes"], 0)
+        self.assertIsNotNone(row["build_ms"]["median"])
+        self.assertIsNone(row["wave_cost_64"])
+
+    def test_light_sets_are_the_same_for_every_technique(self):
+        self.assert_done("render", *SMALL, "--techniques", "all", "--view", "tested", "--out", "a.png", "--stats",
+                         "a.json")
+        with open(self.path("a.json")) as file:
+            self.assertEqual(len({row["light_set_hash"] for row in json.load(file)}), 1)
+
+    def test_no_light_and_the_smallest_image(self):
+        for view in ("shaded", "tested", "structure"):
+            self.assert_done("render", *SMALL, "--lights", "0", "--size", "1x1", "--view", view, "--out", "a.png")
+
+
+class Verify(CommandTest):
+    def test_all_techniques_are_exact(self):
+        done = self.assert_done("verify", *SMALL, "--techniques", "all", "--stats", "a.json")
+        self.assertEqual(done.stderr, "")
+        for name in ("brute_force", *CELLS):
+            self.assertRegex(done.stdout, rf"(?m)^{name} .* 0  exact$")
+        with open(self.path("a.json")) as file:
+            self.assertEqual([row["missing_points"] for row in json.load(file)], [0] * 4)
+
+    def test_options_go_to_the_techniques_that_have_them(self):
+        done = self.assert_done("verify", *SMALL, "--set", "tile_size=16", "--set", "leaf_size=2")
+        self.assertRegex(done.stdout, r"(?m)^clustered +tile_size=16  ")
+        self.assertRegex(done.stdout, r"(?m)^hybrid_light_trees +tile_size=16 leaf_size=2  ")
+
+    def test_a_removed_light_is_found_and_named(self):
+        for name in CELLS:
+            done = self.assert_done("verify", *SMALL, "--remove-one-light", name, code=1)
+            self.assertRegex(done.stderr, rf"\Amanylights: {name}: \d+ of 2304 points differ from brute_force; first at "
+                             r"pixel \(\d+, \d+\): \d+ of \d+ affecting lights, missing light \d+\n\Z")
+            self.assertRegex(done.stdout, rf"(?m)^{name} .*  WRONG$")
+            for other in CELLS:
+                if other != name:
+                    self.assertRegex(done.stdout, rf"(?m)^{other} .*  exact$")
+
+    def test_validation_is_active_and_silent(self):
+        done = self.assert_done("verify", *SMALL, "--validation")
+        self.assertRegex(done.stdout, r"(?m)^validation: core and synchronization active, 0 messages")
+
+
+class List(CommandTest):
+    def test_lines(self):
+        for what, names in {
+                "scenes": ("cornell", "bars", "canyon", "citadel"),
+                "techniques": ("brute_force", *CELLS),
+        }.items():
+            lines = self.assert_done("list", what).stdout.splitlines()
+            for name in names:
+                self.assertEqual(sum(bool(re.match(rf"{name}  +\S", line)) for line in lines), 1, (what, name))
+
+    def test_devices(self):
+        self.assertRegex(self.assert_done("list", "devices").stdout, r"\A *0  \S")
+
+    def test_suites(self):
+        done = self.assert_done("list", "suites")
+        self.assertEqual(done.stdout, "")
+        self.assertIn("no suites", done.stderr)
+
+
+class Help(CommandTest):
+    def test_help_is_on_standard_output(self):
+        for arguments in (["--help"], ["render", "--help"], ["verify", "--help"], ["list", "--help"]):
+            done = self.assert_done(*arguments)
+            self.assertIn("manylights", done.stdout)
+            self.assertNotIn("remove-one-light", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
