@@ -82,12 +82,12 @@ std::uint32_t random_edge(Random& random, std::uint32_t largest) {
 } // namespace
 
 Camera random_camera_at(Random& random, const float eye[3], const CameraOptions& options) {
-    static constexpr float kGuards[] = {0.5f, 0.5f, 0.015625f, 1.0f, 2.5f, 8.0f};
+    static constexpr float kGuards[] = {0.5f, 0.5f, 0.015625f, 1.0f, 2.5f, 8.0f, 64.0f};
     Camera camera;
     camera.view.size = sizeof(ManylightsView);
     camera.view.width = random_edge(random, options.largest_edge_px);
     camera.view.height = random_edge(random, options.largest_edge_px);
-    camera.view.guard_px = kGuards[random.below(6)];
+    camera.view.guard_px = kGuards[random.below(7)];
     camera.view.clip_y_up = random.below(2);
     for (int i = 0; i < 3; ++i) camera.eye[i] = eye[i];
     Double3 rows[3];
@@ -134,6 +134,7 @@ Camera plain_camera(std::uint32_t width, std::uint32_t height, double tan_half_y
 
 float least_range(MlFloat3 point, MlFloat3 center) {
     float range = static_cast<float>(length(to_double(point) - to_double(center)));
+    if (range < 1e-15f) return 1e-15f; // its square is a normal number still
     for (int i = 0; i < 4; ++i) range = std::nextafter(range, 0.0f);
     while (!ml_affects(point, center, range)) range = std::nextafter(range, INFINITY);
     return range;

@@ -26,7 +26,8 @@ Camera random_camera_at(Random& random, const float eye[3], const CameraOptions&
 /// excess is 0.
 ManylightsSphere light_reaching(Random& random, const float eye[3], MlFloat3 point, double distance, double excess);
 
-/// The least range with which a light at this camera-relative centre affects the point.
+/// The least range, but not below 1e-15, with which a light at this camera-relative centre affects the point. They are
+/// less than 1e19 apart, so that squares stay finite.
 float least_range(MlFloat3 point, MlFloat3 center);
 
 } // namespace manylights::oracle
