@@ -153,6 +153,36 @@ TEST(DepthRanges, DepthsReadBackFromTheDepthBufferFindTheirLights) {
     EXPECT_GT(naive.lost, 20) << "of " << naive.probes;
 }
 
+TEST(DepthRanges, PointsThatFloatClippingKeepsBeyondTheFarPlaneFindTheirLights) {
+    Outcome outcome;
+    double farthest = 0.0;
+    const float eye[3] = {0.0f, 0.0f, 0.0f};
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+        oracle::Random random(seed);
+        Trial trial;
+        trial.camera = oracle::plain_camera(100, 100, 0.5, eye, 0.5f);
+        // Standard depth: clip z = slope * depth - near * slope, with slope = far / (far - near) within an ulp of 1.
+        double near_depth = 0.1, far_depth = near_depth * random.between(1e4, 9e4);
+        float* m = trial.camera.view.clip_from_view;
+        float slope = static_cast<float>(far_depth / (far_depth - near_depth));
+        m[10] = -slope;
+        m[14] = static_cast<float>(-near_depth * slope);
+        trial.camera.near_depth = near_depth * 1.001;
+        trial.camera.far_depth = m[14] / (1.0 - slope);
+        for (int i = 0; i < 200; ++i) {
+            oracle::ScreenPosition screen{random.between(0, 100), random.between(0, 100),
+                                          trial.camera.far_depth * (1.0 + random.octaves(-14, -7))};
+            MlFloat3 point = unproject(trial.camera, screen);
+            trial.spheres.push_back(light_reaching(random, eye, point, screen.depth * 1e-5, 1e-5));
+            if (trial.add_probe(point, static_cast<std::uint32_t>(i)))
+                farthest = std::max(farthest, screen.depth / trial.camera.far_depth);
+        }
+        expect_none_lost(trial, default_settings(), outcome);
+    }
+    EXPECT_GT(outcome.triples, 1000u);
+    EXPECT_GT(farthest, 1.002) << "float clip z must keep points well beyond the far plane";
+}
+
 TEST(DepthRanges, LightsBehindTheCameraSortBeforeThoseInFront) {
     oracle::Random random(17);
     const float eye[3] = {0.0f, 0.0f, 0.0f};
