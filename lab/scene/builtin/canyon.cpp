@@ -132,10 +132,17 @@ class Canyon {
         mesh_.bevelled_box(lower, upper, random_between(kSeed + 10, index, channel, 0.2f, 0.7f), exposed, side, top);
     }
 
+    /// Rock beside the floor: its lowest stratum is drawn in, and the floor goes on below it.
+    bool is_beside_floor(int i, int k) const {
+        if (detail_ == Detail::low) return false;
+        return is_corner(i, k, 0) ||
+               std::min({level(i - 1, k), level(i + 1, k), level(i, k - 1), level(i, k + 1)}) == 0;
+    }
+
     void add_floor() {
         for (int k = 0; k < kCellsZ; ++k) {
             for (int i = 0; i < kCellsX; ++i) {
-                if (level(i, k) != 0) continue;
+                if (level(i, k) != 0 && !is_beside_floor(i, k)) continue;
                 const std::uint32_t sand =
                     sand_[std::size_t(random_unit(kSeed + 11, cell_index(i, k), 0) * float(sand_.size()))];
                 const float x = cell_x(i), z = cell_z(k);

@@ -45,7 +45,7 @@ Scene make_cornell(Detail) {
                      look_at("between", {4.2f, 4.5f, -4.2f}, {-1.5f, 2.0f, 3.0f})};
     for (int frame = 0; frame < 16; ++frame) {
         const float t = float(frame) / 15.0f;
-        const glm::vec3 from(-4.0f + 8.0f * t, 2.0f + 24.0f * t * (1.0f - t), 13.0f - 9.0f * t);
+        const glm::vec3 from(-4.0f + 8.0f * t, 2.0f + 24.0f * t * (1.0f - t), 9.5f - 5.5f * t);
         scene.path.push_back(look_at("path", from, {0.0f, 4.0f, -2.0f}));
     }
     return scene;
