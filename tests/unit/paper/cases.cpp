@@ -103,6 +103,11 @@ ImagePoint project(const CameraCase& camera, const MlFloat3& point) {
     return {(0.5 * x + 0.5) * camera.width, (0.5 * down + 0.5) * camera.height, depth};
 }
 
+MlFloat3 ahead_of(const CameraCase& camera) {
+    const auto forward = basis_of(camera).forward;
+    return {float(forward[0]), float(forward[1]), float(forward[2])};
+}
+
 std::vector<ManylightsSphere> random_lights(std::uint32_t count, std::uint32_t seed) {
     Random random(seed);
     std::vector<ManylightsSphere> lights(count);

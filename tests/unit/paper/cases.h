@@ -44,6 +44,9 @@ struct ImagePoint {
 };
 ImagePoint project(const CameraCase& camera, const MlFloat3& point);
 
+/// The viewing direction, unit length.
+MlFloat3 ahead_of(const CameraCase& camera);
+
 std::vector<ManylightsSphere> random_lights(std::uint32_t count, std::uint32_t seed);
 ManylightsLights lights_of(const std::vector<ManylightsSphere>& spheres);
 

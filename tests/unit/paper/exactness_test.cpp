@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace manylights::paper {
@@ -137,6 +138,40 @@ TEST(Exactness, AtTileEdges) {
     // Points a rounding error off their pixel's border are still within the promise's reach of both pixels, or not by
     // less than the widening.
     EXPECT_GT(expect_complete(reader, 0, camera, lights, points), 1000u);
+}
+
+// The nearest and the farthest points of lights, asked for at the ends of the depths that the promise allows. Trees of
+// one light per leaf, whose bounds have nothing to spare.
+TEST(Exactness, AtDepthEnds) {
+    for (const CameraCase& camera : camera_cases()) {
+        SCOPED_TRACE(camera.name);
+        Random random(13);
+        std::vector<ManylightsSphere> lights;
+        std::vector<PointCase> points;
+        const MlFloat3 ahead = ahead_of(camera);
+        const float forward[3] = {ahead.x, ahead.y, ahead.z};
+        while (lights.size() < 3000) {
+            const double depth = random.between(1.0, 300.0), range = random.between(0.01, 3.0);
+            ManylightsSphere light{{}, float(range)};
+            for (int i = 0; i < 3; ++i) light.center[i] = float(camera.position[i] + depth * forward[i]);
+            const MlFloat3 center = relative_to(camera, light.center);
+            const double pole = (random.unit() < 0.5 ? -1.0 : 1.0) * range * (1.0 - random.between(0.0, 1e-6));
+            const MlFloat3 point{float(center.x + pole * ahead.x), float(center.y + pole * ahead.y),
+                                 float(center.z + pole * ahead.z)};
+            lights.push_back(light);
+            const ImagePoint image = project(camera, point);
+            if (!(image.x > 0 && image.x < camera.width && image.y > 0 && image.y < camera.height)) continue;
+            const double shift = (pole < 0 ? -0.9 : 0.9) * 0x1p-20;
+            points.push_back({{std::floor(float(image.x)) + 0.5f, std::floor(float(image.y)) + 0.5f},
+                              float(image.depth * (1.0 + shift)),
+                              point});
+        }
+        const ManylightsView view = make_view(camera);
+        PaperPipeline pipeline;
+        Reader reader(pipeline.build({&view, 1}, lights_of(lights), {.structure = Structure::tree, .leaf_size = 1}));
+        const std::size_t pairs = expect_complete(reader, 0, camera, lights, points);
+        EXPECT_TRUE(pairs > 1000u || camera.offset_x != 0.0);
+    }
 }
 
 TEST(Exactness, SeveralViewsInOneBuild) {

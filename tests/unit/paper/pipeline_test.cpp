@@ -48,6 +48,23 @@ TEST_F(Switches, AlwaysListTestsWhatClusteredTests) {
     EXPECT_EQ(clustered.nodes, 0u);
 }
 
+// One light at depth 100, asked for at 95: in its slice, [79.2, 107.7), but in front of it.
+TEST_F(Switches, ListBoundsDecideWhetherAListIsEntered) {
+    const MlFloat3 ahead = ahead_of(camera_);
+    const std::vector<ManylightsSphere> one{
+        {{camera_.position[0] + 100.0f * ahead.x, camera_.position[1] + 100.0f * ahead.y,
+          camera_.position[2] + 100.0f * ahead.z},
+         3.0f}};
+    PaperPipeline pipeline;
+    const auto tested = [&](ListBounds bounds, float depth) {
+        Reader reader(pipeline.build({&view_, 1}, lights_of(one), {.list_bounds = bounds}));
+        return reader.ask(0, {320.5f, 180.5f}, depth).lights.size();
+    };
+    EXPECT_EQ(tested(ListBounds::infinite, 95.0f), 1u);
+    EXPECT_EQ(tested(ListBounds::of_lights, 95.0f), 0u);
+    EXPECT_EQ(tested(ListBounds::of_lights, 98.0f), 1u);
+}
+
 TEST_F(Switches, TreesTestFewerLightsThanLists) {
     const std::uint64_t lists = work_with({.structure = Structure::clustered}).tested;
     const std::uint64_t hybrid = work_with({}).tested;
