@@ -28,7 +28,8 @@ std::string name_of(const ::testing::TestParamInfo<Variant>& info) { return info
 struct ImageSize {
     std::uint32_t width, height;
 };
-constexpr ImageSize kSizes[] = {{1, 1}, {47, 33}, {48, 48}};
+// The last has tiles side by side and one below the other, cut by the image's edges.
+constexpr ImageSize kSizes[] = {{1, 1}, {47, 33}, {48, 48}, {97, 60}};
 
 // What brute force on the device should have written for a pixel, by the oracle.
 PixelRecord oracle_record(const View& view, std::size_t pixel, const std::vector<oracle::RelativeLight>& lights) {
@@ -241,6 +242,41 @@ TEST_F(TechniquesTest, every_switch_of_the_paper_is_exact) {
     for (const char* technique : {"tiled_light_trees", "hybrid_light_trees"}) check(technique, {{"sort_key", "near"}});
 }
 
+TEST_F(TechniquesTest, options_reach_both_producers) {
+    const View view = made_view(device(), 97, 60, 1500);
+    for (const char* producer : {"library", "paper"}) {
+        const auto references_with = [&](const char* technique, const char* key, const char* value) {
+            const OptionValues options{{"producer", producer}, {key, value}};
+            const std::unique_ptr<Technique> made = make_technique(device(), technique, options);
+            made->prepare(view.frame());
+            return made->stats().references;
+        };
+        for (const char* technique : {"clustered", "tiled_light_trees", "hybrid_light_trees"})
+            EXPECT_GT(references_with(technique, "tile_size", "16"), references_with(technique, "tile_size", "64"));
+        for (const char* technique : {"clustered", "hybrid_light_trees"}) {
+            EXPECT_GT(references_with(technique, "slice_count", "16"), references_with(technique, "slice_count", "4"));
+            EXPECT_NE(references_with(technique, "slice_near", "1"), references_with(technique, "slice_near", "20"));
+            EXPECT_NE(references_with(technique, "slice_far", "50"), references_with(technique, "slice_far", "900"));
+        }
+    }
+}
+
+TEST_F(TechniquesTest, switches_of_the_paper_reach_its_pipeline) {
+    const View view = made_view(device(), 97, 60, 1500);
+    const auto work_of = [&](const char* technique, OptionValues options) {
+        options.emplace_back("producer", "paper");
+        return summarize(records_of(device(), {"", technique, options}, view.frame()));
+    };
+    const WorkSummary clustered = work_of("clustered", {});
+    EXPECT_GT(work_of("clustered", {{"listing4", "printed"}}).tested_mean, clustered.tested_mean);
+    EXPECT_EQ(work_of("hybrid_light_trees", {{"heuristic", "lists"}}).tested_mean, clustered.tested_mean);
+    EXPECT_LT(work_of("hybrid_light_trees", {{"heuristic", "e"}}).tested_mean, clustered.tested_mean);
+    EXPECT_NE(work_of("tiled_light_trees", {{"sort_key", "near"}}).tested_mean,
+              work_of("tiled_light_trees", {}).tested_mean);
+    EXPECT_LT(work_of("tiled_light_trees", {{"leaf_size", "1"}}).tested_mean,
+              work_of("tiled_light_trees", {{"leaf_size", "64"}}).tested_mean);
+}
+
 TEST_F(TechniquesTest, every_size_of_the_structure_is_exact) {
     const View view = made_view(device(), 97, 60, 1500);
     const std::vector<PixelRecord> truth = records_of(device(), kBruteForce, view.frame());
@@ -276,6 +312,8 @@ TEST_F(TechniquesTest, classes_are_those_of_the_cells_that_pixels_walk) {
     EXPECT_EQ(count(classes_of("tiled_light_trees", {{"leaf_size", "65535"}}), CellClass::list), pixels);
     const OptionValues always{{"producer", "paper"}, {"heuristic", "e"}, {"leaf_size", "1"}, {"slice_count", "1"}};
     EXPECT_EQ(count(classes_of("hybrid_light_trees", always), CellClass::tree), pixels);
+    const OptionValues never{{"producer", "paper"}, {"heuristic", "lists"}, {"leaf_size", "1"}};
+    EXPECT_EQ(count(classes_of("hybrid_light_trees", never), CellClass::list), pixels);
     EXPECT_GT(count(classes_of("hybrid_light_trees", {}), CellClass::mixed), 0);
 }
 
