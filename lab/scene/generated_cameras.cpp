@@ -141,7 +141,8 @@ std::vector<View> inside_views(const Scene& scene, const Occupancy& grid, float 
                     constexpr float kAround[8][2] = {{1, 0},  {kHalf, kHalf},   {0, 1},  {-kHalf, kHalf},
                                                      {-1, 0}, {-kHalf, -kHalf}, {0, -1}, {kHalf, -kHalf}};
                     const glm::vec3 direction = normalized({kAround[k][0], 0.05f - 0.5f * height, kAround[k][1]});
-                    views.push_back(judge(grid, eye, direction, diagonal));
+                    if (grid.trace(eye, direction).length > 0.05f * diagonal)
+                        views.push_back(judge(grid, eye, direction, diagonal));
                 }
             }
         }

@@ -73,21 +73,7 @@ TEST(GltfFuzz, ChangedBytesAreReadOrRefused) {
 TEST(GltfFuzz, ChangedNumbersAreReadOrRefused) {
     // The same with valid JSON: each number in it becomes each of these once.
     const GltfFile original = rich_file();
-    const nlohmann::json replacements = {-1,
-                                         0,
-                                         1,
-                                         2,
-                                         3,
-                                         255,
-                                         65536,
-                                         2147483647,
-                                         4294967296ll,
-                                         1e30,
-                                         -1e300,
-                                         "text",
-                                         nullptr,
-                                         nlohmann::json::array(),
-                                         nlohmann::json::object()};
+    const nlohmann::json replacements = {-1, 0, 2, 255, 4294967296ll, 1e30, "text", nlohmann::json::object()};
     const nlohmann::json flat = original.json.flatten();
     int accepted = 0, refused = 0;
     for (const auto& [pointer, value] : flat.items()) {
