@@ -3,6 +3,9 @@
 
 #include "bench/workload.h"
 #include "reference/paper/pipeline.h"
+#if defined(MANYLIGHTS_BENCH_SCENES)
+#include "lab/scene/scene.h"
+#endif
 
 #include <benchmark/benchmark.h>
 
@@ -10,11 +13,10 @@ namespace {
 
 using namespace manylights;
 
-void paper_build(benchmark::State& state, paper::Structure structure) {
+// Builds the same frame over and over.
+void run(benchmark::State& state, paper::Structure structure, const ManylightsView& view,
+         const ManylightsLights& lights) {
     static const double clock = bench::clock_hz();
-    const auto spheres = bench::canyon_like_lights(std::uint32_t(state.range(0)));
-    const ManylightsLights lights = bench::lights_of(spheres);
-    const ManylightsView view = bench::canyon_like_view();
     paper::Options options;
     options.structure = structure;
     options.time_stages = true;
@@ -43,6 +45,23 @@ void paper_build(benchmark::State& state, paper::Structure structure) {
     for (const auto& [name, sum] : stages) state.counters[name] = Counter(sum, Counter::kAvgIterations);
 }
 
+void paper_build(benchmark::State& state, paper::Structure structure) {
+    const auto spheres = bench::canyon_like_lights(std::uint32_t(state.range(0)));
+    run(state, structure, bench::canyon_like_view(), bench::lights_of(spheres));
+}
+
+#if defined(MANYLIGHTS_BENCH_SCENES)
+// The scene itself: its first camera, lights uniform in its box, radii as the lab scales them.
+void paper_build_canyon(benchmark::State& state, paper::Structure structure) {
+    static const lab::Scene scene = lab::load_scene("canyon");
+    const lab::Camera camera = lab::find_camera(scene, "");
+    const auto count = std::uint32_t(state.range(0));
+    const lab::LightSet set = lab::make_lights(scene, camera, {.count = count});
+    const ManylightsLights lights{sizeof(ManylightsLights), set.lights.data(), sizeof(lab::Light), count, 0.0f};
+    run(state, structure, lab::make_view(camera, 1920, 1080), lights);
+}
+#endif
+
 void counts(benchmark::internal::Benchmark* benchmark) {
     benchmark->Arg(8192)->Arg(65536)->Arg(262144)->Unit(benchmark::kMillisecond);
 }
@@ -52,5 +71,11 @@ void counts(benchmark::internal::Benchmark* benchmark) {
 BENCHMARK_CAPTURE(paper_build, clustered, manylights::paper::Structure::clustered)->Apply(counts);
 BENCHMARK_CAPTURE(paper_build, tree, manylights::paper::Structure::tree)->Apply(counts);
 BENCHMARK_CAPTURE(paper_build, hybrid, manylights::paper::Structure::hybrid)->Apply(counts);
+
+#if defined(MANYLIGHTS_BENCH_SCENES)
+BENCHMARK_CAPTURE(paper_build_canyon, clustered, manylights::paper::Structure::clustered)->Apply(counts);
+BENCHMARK_CAPTURE(paper_build_canyon, tree, manylights::paper::Structure::tree)->Apply(counts);
+BENCHMARK_CAPTURE(paper_build_canyon, hybrid, manylights::paper::Structure::hybrid)->Apply(counts);
+#endif
 
 BENCHMARK_MAIN();

@@ -76,7 +76,7 @@ TEST(Exactness, EverySwitchUnderEveryCamera) {
 }
 
 TEST(Exactness, EveryCount) {
-    const CameraCase camera;
+    const CameraCase camera{};
     const ManylightsView view = make_view(camera);
     PaperPipeline pipeline;
     for (std::uint32_t count : {65537u, 0u, 1u, 31u, 32u, 33u, 1234u}) {
@@ -206,7 +206,7 @@ TEST(Exactness, BadLightsAreCountedAndHarmNoOther) {
     }
     for (float bad : {kNan, -1.0f, -kInfinity}) mixed.push_back({{0, 20, 0}, bad});
     mixed.push_back({{0, 20, 0}, 0.0f}); // affects nothing, and is not bad
-    const CameraCase camera;
+    const CameraCase camera{};
     const ManylightsView view = make_view(camera);
     PaperPipeline pipeline, other;
     const Buffers& with = pipeline.build({&view, 1}, lights_of(mixed), {});
@@ -224,7 +224,7 @@ TEST(Exactness, HugeLightsReachEveryCell) {
                                                {{5, 0, 0}, kInfinity},
                                                {{1e18f, 0, 0}, 2e18f},
                                                {{3e38f, -3e38f, 3e38f}, 1e18f}};
-    const CameraCase camera;
+    const CameraCase camera{};
     const ManylightsView view = make_view(camera);
     PaperPipeline pipeline;
     for (Structure structure : {Structure::clustered, Structure::tree, Structure::hybrid}) {
@@ -236,7 +236,7 @@ TEST(Exactness, HugeLightsReachEveryCell) {
 }
 
 TEST(Exactness, MotionMarginWidensEveryRange) {
-    const CameraCase camera;
+    const CameraCase camera{};
     const ManylightsView view = make_view(camera);
     const auto lights = random_lights(500, 11);
     auto grown = lights;

@@ -29,7 +29,7 @@ Work work(const Buffers& frame, const std::vector<PointCase>& points) {
 
 class Switches : public ::testing::Test {
   protected:
-    const CameraCase camera_;
+    const CameraCase camera_{};
     const ManylightsView view_ = make_view(camera_);
     const std::vector<ManylightsSphere> lights_ = random_lights(20000, 1);
     const std::vector<PointCase> points_ = points_in_lights(camera_, lights_, 2000, 2);
