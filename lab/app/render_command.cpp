@@ -232,11 +232,11 @@ void write_pictures(const std::vector<Panel>& panels, const Workbench& bench, co
                       bench.frame());
 }
 
-void print_work(const std::vector<Panel>& panels, const RenderArguments& arguments) {
+void print_work(const std::vector<Panel>& panels, const Workbench& bench, const RenderArguments& arguments) {
     if (!measures_work(arguments)) return;
     std::vector<Measurement> measurements;
     for (const Panel& panel : panels) measurements.push_back(panel.measurement);
-    fmt::print("{}", work_table(measurements, {}));
+    fmt::print("{}\n{}", bench.description(), work_table(measurements, {}));
 }
 
 void write_rows(const std::vector<Panel>& panels, Workbench& bench, const RenderArguments& arguments) {
@@ -261,7 +261,7 @@ int run_render(const RenderArguments& arguments) {
     write_pictures(panels, bench, arguments);
     write_rows(panels, bench, arguments);
     progress.clear();
-    print_work(panels, arguments);
+    print_work(panels, bench, arguments);
     return report_validation(bench.device());
 }
 

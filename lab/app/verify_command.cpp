@@ -1,6 +1,5 @@
 #include "lab/app/commands.h"
 #include "lab/app/image_check.h"
-#include "lab/app/number_scale.h"
 #include "lab/app/progress.h"
 #include "lab/app/statistics.h"
 #include "lab/app/validation_report.h"
@@ -111,13 +110,6 @@ std::string failure(const Verdict& verdict, const Workbench& bench) {
                        result.first_got.affecting, result.first_truth.affecting, lost_lights(result, bench));
 }
 
-std::string heading(const Selectors& selectors, Workbench& bench) {
-    return fmt::format("{}, {} lights ({}, seed {}), camera {}, {}x{}, {}\n", selectors.scene,
-                       with_separators(bench.lights().lights.size()), selectors.lights.distribution,
-                       selectors.lights.seed, bench.camera_name(), selectors.width, selectors.height,
-                       bench.device().info().name);
-}
-
 void write_rows(const std::vector<Verdict>& verdicts, Workbench& bench, const VerifyArguments& arguments) {
     if (arguments.stats.empty()) return;
     std::vector<nlohmann::ordered_json> rows;
@@ -142,7 +134,7 @@ int run_verify(const VerifyArguments& arguments) {
     if (!arguments.stats.empty()) check_statistics_path(arguments.stats);
     Workbench bench(arguments.selectors);
     const std::vector<Verdict> verdicts = judge_all(bench, arguments);
-    fmt::print("{}{}", heading(arguments.selectors, bench), table_of(verdicts));
+    fmt::print("{}\n{}", bench.description(), table_of(verdicts));
     int code = kDone;
     for (const Verdict& verdict : verdicts) {
         if (verdict.right()) continue;

@@ -1,5 +1,6 @@
 #include "lab/app/workbench.h"
 
+#include "lab/app/number_scale.h"
 #include "lab/scene/error.h"
 
 #include <fmt/format.h>
@@ -8,21 +9,6 @@
 
 namespace manylights::lab::app {
 namespace {
-
-constexpr double kGibibyte = 1024.0 * 1024.0 * 1024.0;
-
-// What any technique holds on the device at the least: two vec4 per point, a 64-byte record and an RGBA float per
-// pixel, and per light its record. Asked for up front, since a software device would rather swap than refuse.
-void check_memory(const Selectors& selectors, const Scene& scene, const gpu::DeviceInfo& device) {
-    const std::uint64_t pixels = std::uint64_t{selectors.width} * selectors.height;
-    const std::uint64_t bytes = pixels * (32 + 64 + 16) + std::uint64_t{selectors.lights.count} * 32 +
-                                scene.vertices.size() * sizeof(Vertex) + scene.indices.size() * 4;
-    if (bytes <= device.memory_bytes) return;
-    throw InputError(fmt::format("--size {}x{} with {} lights: needs at least {:.1f} GiB, '{}' has {:.1f} GiB",
-                                 selectors.width, selectors.height, selectors.lights.count,
-                                 static_cast<double>(bytes) / kGibibyte, device.name,
-                                 static_cast<double>(device.memory_bytes) / kGibibyte));
-}
 
 gpu::DeviceOptions device_options(const Selectors& selectors) { return {selectors.device, selectors.validation}; }
 
@@ -34,6 +20,20 @@ PointBuffer draw_points(const Selectors& selectors, const Scene& scene, const Ca
 
 } // namespace
 
+// What any technique holds on the device at the least: two vec4 per point, a 64-byte record and an RGBA float per
+// pixel, and two vec4 per light.
+void check_memory(const Selectors& selectors, const Scene& scene, const gpu::DeviceInfo& device) {
+    constexpr double kGibibyte = 1024.0 * 1024.0 * 1024.0;
+    const std::uint64_t pixels = std::uint64_t{selectors.width} * selectors.height;
+    const std::uint64_t bytes = pixels * (32 + 64 + 16) + std::uint64_t{selectors.lights.count} * 32 +
+                                scene.vertices.size() * sizeof(Vertex) + scene.indices.size() * 4;
+    if (bytes <= device.memory_bytes) return;
+    throw InputError(fmt::format("--size {}x{} with {} lights: needs at least {:.1f} GiB, {} has {:.1f} GiB",
+                                 selectors.width, selectors.height, selectors.lights.count,
+                                 static_cast<double>(bytes) / kGibibyte, device.name,
+                                 static_cast<double>(device.memory_bytes) / kGibibyte));
+}
+
 Workbench::Workbench(const Selectors& selectors)
     : selectors_(selectors), scene_(load_scene(selectors.scene, selectors.detail)),
       camera_(find_camera(scene_, selectors.camera)), lights_(make_lights(scene_, camera_, selectors.lights)),
@@ -41,6 +41,12 @@ Workbench::Workbench(const Selectors& selectors)
       points_(draw_points(selectors, scene_, camera_, device_, renderer_)), frame_{scene_,          camera_,
                                                                                    selectors.width, selectors.height,
                                                                                    lights_.lights,  points_} {}
+
+std::string Workbench::description() const {
+    return fmt::format("{}, {} lights ({}, seed {}), camera {}, {}x{}, {}", selectors_.scene,
+                       with_separators(lights_.lights.size()), selectors_.lights.distribution, selectors_.lights.seed,
+                       camera_name(), selectors_.width, selectors_.height, device_.info().name);
+}
 
 std::string Workbench::camera_name() const { return selectors_.camera.empty() ? camera_.name : selectors_.camera; }
 

@@ -8,6 +8,10 @@
 
 namespace manylights::lab::app {
 
+/// Throws InputError where the picture, the lights and the scene cannot fit into the device's memory: a software device
+/// would rather swap than refuse.
+void check_memory(const Selectors& selectors, const Scene& scene, const gpu::DeviceInfo& device);
+
 class Workbench {
   public:
     /// Throws InputError or DeviceError. Input is read before the device is opened.
@@ -19,6 +23,8 @@ class Workbench {
     const Scene& scene() const { return scene_; }
     const LightSet& lights() const { return lights_; }
     const Frame& frame() const { return frame_; }
+    /// Scene, lights, camera, size and device, in one line.
+    std::string description() const;
     std::string camera_name() const;               ///< as selected; the scene's default camera by its own name
     std::vector<std::uint8_t> shaded_mask() const; ///< 1 per pixel with a surface
 
