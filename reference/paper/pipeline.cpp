@@ -55,6 +55,7 @@ const Buffers& PaperPipeline::build(std::span<const ManylightsView> views, const
     check(options, views);
     slices_.update(options, options.structure == Structure::tree ? 1 : options.slice_count);
     views_.clear();
+    tree_builder_.clear();
     cell_count_ = node_count_ = reference_count_ = 0;
     buffers_ = {};
     StageClock clock(options.time_stages);

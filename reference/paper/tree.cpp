@@ -174,6 +174,10 @@ void TreeBuilder::pack(MlNode* nodes) {
             to[i].bits |= table[i].skip;
         }
     }
+    clear();
+}
+
+void TreeBuilder::clear() {
     trees_.clear();
     node_count_ = 0;
 }

@@ -50,6 +50,7 @@ class TreeBuilder {
     std::uint32_t node_count() const { return node_count_; } ///< of all cells since the last pack
     /// Writes them depth first and starts anew.
     void pack(MlNode* nodes);
+    void clear(); ///< forgets cells that were not packed, as after an exception
 
   private:
     struct Tree {
