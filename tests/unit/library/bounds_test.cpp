@@ -65,6 +65,7 @@ TEST(SlopeBounds, AreUnboundedWhereTheNearPlaneIsUnknown) {
     const Interval inside = detail::slope_bounds(0.5, 0.5, 2.0, 0.0);
     EXPECT_EQ(inside.low, -detail::kUnbounded);
     EXPECT_EQ(inside.high, detail::kUnbounded);
+    EXPECT_EQ(detail::slope_bounds(-2.0, 0.0, 2.0, 0.0).high, detail::kUnbounded) << "touches the camera itself";
     const Interval in_front = detail::slope_bounds(0.5, 5.0, 1.0, 0.0);
     EXPECT_GT(in_front.low, -1.0);
     EXPECT_LT(in_front.high, 1.0);

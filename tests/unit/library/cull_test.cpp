@@ -96,6 +96,11 @@ TEST(Cull, HugeRangesReachEveryCell) {
     }
 }
 
+TEST(Cull, TakesLargerRangesAs1e18) {
+    EXPECT_EQ(cull({{{0, 0, 9e17f}, 1e30f}}).visible, Indices{0});
+    EXPECT_EQ(cull({{{0, 0, 1e19f}, 1e30f}}).visible, Indices{});
+}
+
 TEST(Cull, ReadsLightsWithTheirStride) {
     struct EngineLight {
         float color[3];

@@ -137,6 +137,22 @@ TEST(Stats, TellListsFromTrees) {
     EXPECT_GT(stats.list_cells, 0u);
 }
 
+// As many lights as a leaf holds make a tree of one leaf, and that is a list.
+TEST(Stats, CountATreeOfOneLeafAsAList) {
+    const std::vector<ManylightsSphere> four(4, {{0, 0, -10}, 1});
+    for (const std::uint32_t leaf_size : {4u, 3u}) {
+        ManylightsSettings settings = settings_of(MANYLIGHTS_STRUCTURE_TREES);
+        settings.leaf_size = leaf_size;
+        settings.tile_px = 512;
+        const BuilderPtr builder = make_builder(settings);
+        build_frame(builder.get(), {make_view()}, four);
+        ManylightsStats stats{};
+        manylights_stats(builder.get(), &stats);
+        EXPECT_EQ(stats.list_cells, leaf_size == 4 ? 1u : 0u);
+        EXPECT_EQ(stats.tree_cells, leaf_size == 4 ? 0u : 1u);
+    }
+}
+
 std::uint64_t budget_bytes(std::uint32_t structure, std::uint64_t max_bytes, ManylightsStats& stats, Frame& frame) {
     ManylightsSettings settings = settings_of(structure);
     settings.max_bytes = max_bytes;
