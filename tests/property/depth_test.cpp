@@ -183,6 +183,36 @@ TEST(DepthRanges, PointsThatFloatClippingKeepsBeyondTheFarPlaneFindTheirLights) 
     EXPECT_GT(farthest, 1.002) << "float clip z must keep points well beyond the far plane";
 }
 
+TEST(DepthRanges, ThePolesOfSpheresAreFoundAcrossTheWholeDepthTolerance) {
+    Outcome outcome;
+    int accepted_outside = 0;
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        oracle::Random random(seed);
+        Trial trial;
+        trial.camera = camera_at_origin(random, 200);
+        for (int i = 0; i < 200; ++i) {
+            // The deepest or the nearest point of a sphere, which the float predicate only just accepts. Where the
+            // centre is close to the camera, the widening by the centre's distance is of no help.
+            double depth = trial.camera.near_depth * random.octaves(0, 8);
+            double radius = depth * random.octaves(-4, 0);
+            MlFloat3 point =
+                relative_at(trial.camera, depth * random.between(-0.1, 0.1), depth * random.between(-0.1, 0.1), depth);
+            oracle::Double3 p = depth_space(trial.camera, point);
+            double pole = random.chance(0.7) ? -1.0 : 1.0;
+            MlFloat3 center = relative_at(trial.camera, p.x, p.y, p.z + pole * (random.chance(0.5) ? radius : depth));
+            std::uint32_t light = trial.add_light(center, oracle::least_range(point, center));
+            if (!trial.add_probe(point, light)) continue;
+            accepted_outside +=
+                oracle::distance_to_surface(point, {center, trial.spheres[light].range, light}) > 0.0 ? 1 : 0;
+        }
+        ManylightsSettings settings = default_settings();
+        settings.leaf_size = 1;
+        expect_none_lost(trial, settings, outcome);
+    }
+    EXPECT_GT(outcome.triples, 5000u);
+    EXPECT_GT(accepted_outside, 200);
+}
+
 TEST(DepthRanges, LightsBehindTheCameraSortBeforeThoseInFront) {
     oracle::Random random(17);
     const float eye[3] = {0.0f, 0.0f, 0.0f};
