@@ -76,10 +76,9 @@ void drop_sky(std::vector<CellClass>& classes, const std::vector<std::uint8_t>& 
 }
 
 Panel make_panel(Workbench& bench, const std::string& name, const RenderArguments& arguments, Progress& progress) {
-    const std::unique_ptr<Technique> technique = bench.make(name);
-    Panel panel;
     progress.at(fmt::format("{}: building", name));
-    technique->prepare(bench.frame());
+    const std::unique_ptr<Technique> technique = bench.make_prepared(name, measures_work(arguments) ? kTimedBuilds : 1);
+    Panel panel;
     progress.at(fmt::format("{}: shading", name));
     if (!shows_numbers(arguments.view) || !arguments.stats.empty()) panel.radiance = technique->shade(bench.frame());
     if (measures_work(arguments)) {

@@ -36,8 +36,7 @@ struct Truth {
 Truth find_truth(Workbench& bench, Progress& progress) {
     progress.at(fmt::format("{}: testing every light at every pixel", kTruth));
     Truth truth;
-    truth.technique = bench.make(kTruth);
-    truth.technique->prepare(bench.frame());
+    truth.technique = bench.make_prepared(kTruth, 1);
     truth.records = truth.technique->record(bench.frame());
     truth.radiance = radiance_of(truth.records);
     truth.mask = bench.shaded_mask();
@@ -70,8 +69,7 @@ Verdict judge(Workbench& bench, const std::string& name, const Truth& truth, boo
     progress.at(fmt::format("{}: building and shading", name));
     // The truth is not computed twice; its image is still checked against its records.
     if (name == kTruth && !remove_one) return judge(bench, *truth.technique, truth.records, truth);
-    const std::unique_ptr<Technique> technique = bench.make(name);
-    technique->prepare(bench.frame());
+    const std::unique_ptr<Technique> technique = bench.make_prepared(name, kTimedBuilds);
     if (remove_one) damage(*technique, bench.frame());
     return judge(bench, *technique, technique->record(bench.frame()), truth);
 }

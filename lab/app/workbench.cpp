@@ -68,8 +68,10 @@ OptionValues Workbench::options_for(const std::string& technique) const {
     return options;
 }
 
-std::unique_ptr<Technique> Workbench::make(const std::string& technique) {
-    return make_technique(device_, technique, options_for(technique));
+std::unique_ptr<Technique> Workbench::make_prepared(const std::string& name, int builds) {
+    std::unique_ptr<Technique> technique = make_technique(device_, name, options_for(name));
+    for (int build = 0; build < builds; ++build) technique->prepare(frame_);
+    return technique;
 }
 
 } // namespace manylights::lab::app

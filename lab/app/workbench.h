@@ -12,6 +12,9 @@ namespace manylights::lab::app {
 /// would rather swap than refuse.
 void check_memory(const Selectors& selectors, const Scene& scene, const gpu::DeviceInfo& device);
 
+/// Builds behind a reported time: the median of five is one with warm memory.
+constexpr int kTimedBuilds = 5;
+
 class Workbench {
   public:
     /// Throws InputError or DeviceError. Input is read before the device is opened.
@@ -30,7 +33,8 @@ class Workbench {
 
     /// The options among the given ones that the technique has.
     OptionValues options_for(const std::string& technique) const;
-    std::unique_ptr<Technique> make(const std::string& technique);
+    /// Builds the frame's structures `builds` times: the first one pays for fresh memory, so a time needs several.
+    std::unique_ptr<Technique> make_prepared(const std::string& name, int builds);
 
   private:
     Selectors selectors_;
