@@ -23,10 +23,10 @@
  * The promise
  *   A light affects a point when the squared distance between them is less than the squared range, both positions taken
  *   relative to the camera and rounded once to float (ml_affects in the shader library). For every triple of a pixel, a
- *   view depth and a point, where the point projects within guard_px of the pixel's centre (in x and in y), lies between
- *   the near and the far plane, and has that view depth within 2^-20 relative: each light that affects the point is
- *   handed out by the query at (pixel, depth), exactly once. Shading in world space far from the origin is covered too: the library
- *   widens each sphere by 4 units in the last place of the largest world coordinate involved.
+ *   view depth and a point, where the point projects within guard_px of the pixel's centre (in x and in y), lies
+ * between the near and the far plane, and has that view depth within 2^-20 relative: each light that affects the point
+ * is handed out by the query at (pixel, depth), exactly once. Shading in world space far from the origin is covered
+ * too: the library widens each sphere by 4 units in the last place of the largest world coordinate involved.
  *
  * Errors
  *   Every function that can fail returns a ManylightsStatus and, where the caller passes a report, says which field

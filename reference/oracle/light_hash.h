@@ -1,6 +1,6 @@
-// Two hashes of a light's index. Their wrapping sums over the lights that affect a point identify the set, whatever order
-// the lights came in: a lost light, a light too many and a light handed out twice all change both sums. One text for C++
-// and GLSL, so that the oracle on the CPU and every technique on a device sum the same numbers.
+// Two hashes of a light's index. Their wrapping sums over the lights that affect a point identify the set, whatever
+// order the lights came in: a lost light, a light too many and a light handed out twice all change both sums. One text
+// for C++ and GLSL, so that the oracle on the CPU and every technique on a device sum the same numbers.
 //
 // Each is a bijection of 32-bit words (odd multiplications and xor-shifts only), so two lights never share a value.
 #ifndef MANYLIGHTS_ORACLE_LIGHT_HASH_H
