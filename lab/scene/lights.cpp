@@ -53,7 +53,8 @@ float unit_radius(const RadiusTable& table, std::uint32_t seed, std::uint32_t i)
                  : random_between(seed, i, kRadiusChannel, table.small_lower, table.small_upper);
 }
 
-/// Lamps, mostly warm, some cool; each colour has a luminance near 1, so that no hue outshines the others.
+/// Lamps, mostly warm, some cool, softened towards a warm white; each colour has a luminance near 1, so that no hue
+/// outshines the others.
 glm::vec3 light_color(std::uint32_t seed, std::uint32_t i) {
     static constexpr float kPalette[][3] = {
         {2.0f, 0.85f, 0.22f}, {2.2f, 0.70f, 0.10f}, {1.6f, 0.95f, 0.45f}, {2.5f, 0.55f, 0.30f}, {2.3f, 0.45f, 0.95f},
@@ -65,7 +66,7 @@ glm::vec3 light_color(std::uint32_t seed, std::uint32_t i) {
     const float t = random_unit(seed, i, kMixChannel);
     glm::vec3 color;
     for (int c = 0; c < 3; ++c) color[c] = kPalette[first][c] * (1.0f - t) + kPalette[second][c] * t;
-    return color;
+    return color * 0.6f + glm::vec3(0.48f, 0.39f, 0.29f);
 }
 
 /// Intensity grows with the square of the range, so that small and large lights are equally bright at the same share of
