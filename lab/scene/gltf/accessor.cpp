@@ -70,9 +70,9 @@ class Reader {
     void for_each_sparse(std::size_t element_bytes, Set&& set) const {
         const tinygltf::Accessor& a = accessor();
         require(a.sparse.count > 0 && std::size_t(a.sparse.count) <= a.count, "has a bad sparse count");
-        require(a.sparse.indices.byteOffset >= 0 && a.sparse.values.byteOffset >= 0, "has a negative sparse offset");
         const auto count = std::size_t(a.sparse.count);
         const std::size_t index_bytes = index_size(a.sparse.indices.componentType);
+        // Offsets are signed in some versions of the parser; a negative one becomes too large here, and is refused.
         const Elements indices =
             locate(a.sparse.indices.bufferView, std::size_t(a.sparse.indices.byteOffset), count, index_bytes, false);
         const Elements values =
