@@ -11,9 +11,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace manylights::lab::gpu {
+
+/// The device's entry points. Deduced, since Vulkan-Hpp moved the type from one namespace to another.
+using DeviceCalls = std::remove_cvref_t<decltype(*std::declval<const vk::raii::Device&>().getDispatcher())>;
 
 struct Context {
     DeviceInfo info;

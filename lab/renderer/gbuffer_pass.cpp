@@ -103,7 +103,7 @@ vk::ImageMemoryBarrier2 image_barrier(const gpu::Image& image, const Transition&
 }
 
 void record_barriers(vk::CommandBuffer command, const std::array<vk::ImageMemoryBarrier2, 2>& barriers,
-                     const vk::raii::DeviceDispatcher& calls) {
+                     const gpu::DeviceCalls& calls) {
     vk::DependencyInfo dependency;
     dependency.setImageMemoryBarriers(barriers);
     command.pipelineBarrier2(dependency, calls);
@@ -131,7 +131,7 @@ std::array<vk::ImageMemoryBarrier2, 2> to_copies(const gpu::Image& color, const 
 }
 
 void begin_rendering(vk::CommandBuffer command, const gpu::Image& color, const gpu::Image& depth,
-                     const vk::raii::DeviceDispatcher& calls) {
+                     const gpu::DeviceCalls& calls) {
     // Zero is the sky: a depth at infinity.
     const vk::RenderingAttachmentInfo color_target(color.view(), vk::ImageLayout::eColorAttachmentOptimal,
                                                    vk::ResolveModeFlagBits::eNone, {}, vk::ImageLayout::eUndefined,
@@ -150,7 +150,7 @@ void begin_rendering(vk::CommandBuffer command, const gpu::Image& color, const g
 }
 
 void record_copy(vk::CommandBuffer command, const gpu::Image& image, const gpu::Buffer& target,
-                 const vk::raii::DeviceDispatcher& calls) {
+                 const gpu::DeviceCalls& calls) {
     const vk::BufferImageCopy region(0, 0, 0, {vk::ImageAspectFlags(image.aspect()), 0, 0, 1}, {0, 0, 0},
                                      {image.width(), image.height(), 1});
     command.copyImageToBuffer(image.handle(), vk::ImageLayout::eTransferSrcOptimal, target.handle(), region, calls);
@@ -183,7 +183,7 @@ void GBufferPass::record(gpu::Commands& commands, const SceneBuffers& scene, con
     const gpu::Image &color = *state.normal_and_material, &depth = *state.depth;
 
     const vk::CommandBuffer command = commands.handle();
-    const vk::raii::DeviceDispatcher& calls = *state.context->vk().getDispatcher();
+    const gpu::DeviceCalls& calls = *state.context->vk().getDispatcher();
     record_barriers(command, to_attachments(color, depth), calls);
     begin_rendering(command, color, depth, calls);
     if (scene.index_count > 0) {
