@@ -55,6 +55,15 @@ void make_validating_instance(Context& context, vk::InstanceCreateInfo info) {
     vk::DebugUtilsMessengerCreateInfoEXT messages = messenger_info(context);
     vk::ValidationFeaturesEXT features;
     features.setEnabledValidationFeatures(enabled).setPNext(&messages);
+#if defined(VK_EXT_layer_settings)
+    // Newer layers look for hazards between shaders' accesses only when asked to; older ones always do.
+    const VkBool32 on = VK_TRUE;
+    const VkLayerSettingEXT setting = {kValidationLayer, "syncval_shader_accesses_heuristic",
+                                       VK_LAYER_SETTING_TYPE_BOOL32_EXT, 1, &on};
+    const VkLayerSettingsCreateInfoEXT settings = {VK_STRUCTURE_TYPE_LAYER_SETTINGS_CREATE_INFO_EXT, &messages, 1,
+                                                   &setting};
+    features.setPNext(&settings);
+#endif
     const char* layers[] = {kValidationLayer};
     const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
     info.setPNext(&features).setPEnabledLayerNames(layers).setPEnabledExtensionNames(extensions);
