@@ -3,6 +3,7 @@
 #include "lab/gpu/commands.h"
 #include "lab/gpu/device.h"
 #include "lab/scene/error.h"
+#include "tests/parity/validated_device.h"
 
 #include <gtest/gtest.h>
 
@@ -22,11 +23,6 @@ constexpr std::uint32_t kScaleCode[] =
 constexpr std::uint32_t kSpinCode[] =
 #include "gpu_spin.comp.inc"
     ;
-
-Device& validated_device() {
-    static Device device(DeviceOptions{"", true});
-    return device;
-}
 
 // What the command does with a device that cannot be opened, or gives up.
 [[noreturn]] void exit_with(const std::string& message) {

@@ -3,6 +3,7 @@
 #include "lab/gpu/device.h"
 #include "lab/renderer/renderer.h"
 #include "lab/scene/error.h"
+#include "tests/parity/validated_device.h"
 
 #include <gtest/gtest.h>
 
@@ -12,11 +13,6 @@
 
 namespace manylights::lab {
 namespace {
-
-gpu::Device& validated_device() {
-    static gpu::Device device(gpu::DeviceOptions{"", true});
-    return device;
-}
 
 struct Size {
     std::uint32_t width, height;

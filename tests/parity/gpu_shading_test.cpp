@@ -3,6 +3,7 @@
 #include "lab/gpu/commands.h"
 #include "lab/gpu/device.h"
 #include "lab/renderer/point_buffer.h"
+#include "tests/parity/validated_device.h"
 
 #include <gtest/gtest.h>
 
@@ -15,11 +16,6 @@ namespace {
 constexpr std::uint32_t kCode[] =
 #include "gpu_shading.comp.inc"
     ;
-
-gpu::Device& validated_device() {
-    static gpu::Device device(gpu::DeviceOptions{"", true});
-    return device;
-}
 
 /// The same text as Case in gpu_shading.comp.
 struct Case {

@@ -2,34 +2,16 @@
 
 #include "lab/scene/error.h"
 #include "reference/oracle/random.h"
+#include "tests/parity/validated_device.h"
 
 #include <cstdio>
+#include <mutex>
 
 namespace manylights::lab {
 
 namespace {
 
-struct SharedDevice {
-    std::unique_ptr<gpu::Device> device;
-    std::string reason; ///< why there is none
-};
-
-SharedDevice open_device() {
-    SharedDevice shared;
-    try {
-        shared.device = std::make_unique<gpu::Device>(gpu::DeviceOptions{"", true});
-        std::printf("device %s, %s; core and synchronization validation by %s\n", shared.device->info().name.c_str(),
-                    shared.device->info().version.c_str(), shared.device->validation_layer().c_str());
-    } catch (const DeviceError& error) {
-        shared.reason = error.what();
-    }
-    return shared;
-}
-
-SharedDevice& shared_device() {
-    static SharedDevice shared = open_device();
-    return shared;
-}
+std::once_flag announced;
 
 PointPosition made_position(const CameraBasis& basis, std::uint32_t width, std::uint32_t height, std::size_t pixel,
                             oracle::Random& random) {
@@ -74,8 +56,15 @@ Camera made_camera() {
 } // namespace
 
 void TechniquesTest::SetUp() {
-    if (!shared_device().device) GTEST_SKIP() << shared_device().reason;
-    device_ = shared_device().device.get();
+    try {
+        device_ = &validated_device();
+    } catch (const DeviceError& error) {
+        GTEST_SKIP() << error.what();
+    }
+    std::call_once(announced, [this] {
+        std::printf("device %s, %s; core and synchronization validation by %s\n", device_->info().name.c_str(),
+                    device_->info().version.c_str(), device_->validation_layer().c_str());
+    });
     ASSERT_TRUE(device_->validation_active());
 }
 
