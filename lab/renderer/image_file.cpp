@@ -11,51 +11,11 @@
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb/stb_image_write.h>
 
-#include <unistd.h>
-
-#include <cerrno>
 #include <cstddef>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
 
 namespace manylights::lab {
 
 namespace {
-
-namespace fs = std::filesystem;
-
-[[noreturn]] void cannot_write(const std::string& path, const std::string& why) {
-    throw InputError("cannot write " + path + ": " + why);
-}
-
-/// A file under a name of its own beside the wanted one; gone again unless kept.
-class UnfinishedFile {
-  public:
-    explicit UnfinishedFile(std::string path)
-        : path_(std::move(path)), name_(path_ + ".unfinished-" + std::to_string(getpid())) {
-        check_writable(path_);
-    }
-    UnfinishedFile(const UnfinishedFile&) = delete;
-    UnfinishedFile& operator=(const UnfinishedFile&) = delete;
-    ~UnfinishedFile() {
-        std::error_code ignored;
-        if (!kept_) fs::remove(name_, ignored);
-    }
-
-    const std::string& name() const { return name_; }
-
-    void keep() {
-        std::error_code error;
-        fs::rename(name_, path_, error);
-        if (error) cannot_write(path_, error.message());
-        kept_ = true;
-    }
-
-  private:
-    std::string path_, name_;
-    bool kept_ = false;
-};
 
 std::vector<std::uint8_t> encode_png(const Picture& picture) {
     std::vector<std::uint8_t> bytes;
@@ -67,15 +27,6 @@ std::vector<std::uint8_t> encode_png(const Picture& picture) {
     stbi_write_png_to_func(append, &bytes, int(picture.width), int(picture.height), 3, picture.rgb.data(),
                            int(picture.width) * 3);
     return bytes;
-}
-
-void write_bytes(const std::string& path, const std::string& name, const std::vector<std::uint8_t>& bytes) {
-    std::FILE* file = std::fopen(name.c_str(), "wb");
-    if (file == nullptr) cannot_write(path, std::strerror(errno));
-    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-    const int write_error = errno;
-    const bool closed = std::fclose(file) == 0; // a full disk may be noticed only here
-    if (!written || !closed) cannot_write(path, std::strerror(written ? errno : write_error));
 }
 
 constexpr const char* kChannels[3] = {"R", "G", "B"};
@@ -91,23 +42,11 @@ Imf::FrameBuffer frame_of(float* rgb, std::size_t width) {
 
 } // namespace
 
-void check_writable(const std::string& path) {
-    std::error_code error;
-    const fs::path file(path);
-    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-    const fs::file_status status = fs::status(folder, error);
-    if (!fs::exists(status)) cannot_write(path, "the folder " + folder.string() + " does not exist");
-    if (!fs::is_directory(status)) cannot_write(path, folder.string() + " is not a folder");
-    if (fs::is_directory(file, error)) cannot_write(path, "it is a folder");
-    if (access(folder.c_str(), W_OK | X_OK) != 0)
-        cannot_write(path, "the folder " + folder.string() + " is not writable: " + std::strerror(errno));
-}
-
 void write_png(const std::string& path, const Picture& picture) {
     UnfinishedFile file(path);
     const std::vector<std::uint8_t> bytes = encode_png(picture);
     if (bytes.empty()) cannot_write(path, "the picture cannot be encoded");
-    write_bytes(path, file.name(), bytes);
+    file.write(bytes);
     file.keep();
 }
 

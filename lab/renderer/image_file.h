@@ -3,6 +3,7 @@
 // half-written is ever found under its name. All throw InputError naming the path and why.
 
 #include "lab/renderer/tone_map.h"
+#include "lab/renderer/unfinished_file.h"
 
 #include <cstdint>
 #include <span>
@@ -21,9 +22,5 @@ struct FloatImage {
     std::vector<float> rgb;
 };
 FloatImage read_exr(const std::string& path);
-
-/// Throws the InputError that write_png and write_exr would throw for this path because of its extension or its folder,
-/// before any long work is done for it.
-void check_writable(const std::string& path);
 
 } // namespace manylights::lab
