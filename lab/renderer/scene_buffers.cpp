@@ -4,8 +4,6 @@
 
 namespace manylights::lab {
 
-namespace {
-
 std::vector<MaterialRecord> material_records(const Scene& scene) {
     std::vector<MaterialRecord> records;
     for (const Material& material : scene.materials)
@@ -13,8 +11,6 @@ std::vector<MaterialRecord> material_records(const Scene& scene) {
     if (records.empty()) records.push_back({glm::vec3(0.8f), 0.8f, glm::vec3(0.0f), 0.0f});
     return records;
 }
-
-} // namespace
 
 SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene)
     : vertices(device, "vertices", std::span<const Vertex>(scene.vertices)),

@@ -9,6 +9,9 @@
 
 namespace manylights::lab {
 
+/// The scene's materials as shading reads them; a plain grey one where it has none.
+std::vector<MaterialRecord> material_records(const Scene& scene);
+
 struct SceneBuffers {
     SceneBuffers(gpu::Device& device, const Scene& scene);
 
