@@ -20,6 +20,7 @@ constexpr std::array<const char*, 2> kDetailNames = {"low", "full"};
 // Option values as they were typed; CLI11 finds them, the functions below judge them, so all refusals sound alike.
 struct Typed {
     std::string lights = "65536", seed = "1", kinds = "point", size, detail = "full", view = "shaded", scale_max;
+    CLI::Option* size_option = nullptr;
     std::vector<std::string> settings, techniques;
     std::string list;
 };
@@ -85,6 +86,7 @@ void read_selectors(const Typed& typed, Selectors& selectors) {
     selectors.detail = choice("--detail", typed.detail, kDetailNames) == 0 ? Detail::low : Detail::full;
     check_kinds(typed.kinds);
     read_size(typed.size, selectors);
+    selectors.size_given = typed.size_option->count() > 0;
     read_settings(typed.settings, selectors.settings);
 }
 
@@ -145,7 +147,9 @@ void add_selectors(CLI::App& app, Selectors& selectors, Typed& typed) {
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_option("--camera", selectors.camera, "a camera's name, or path:T with T in [0, 1) [the scene's first]");
-    app.add_option("--size", typed.size, fmt::format("WIDTHxHEIGHT in pixels [{}]", typed.size));
+    typed.size_option = app.add_option("--size", typed.size, fmt::format("WIDTHxHEIGHT in pixels [{}]", typed.size));
+    app.add_option("--points", selectors.points,
+                   "FILE of the view's points: saved where it is not there yet, else loaded, with its camera and size");
     app.add_option("--device", selectors.device, "index in `list devices` or part of a name [the best one]");
     app.add_flag("--validation", selectors.validation, "run under core and synchronization validation");
 }

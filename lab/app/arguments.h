@@ -24,7 +24,9 @@ struct Selectors {
     OptionValues settings; ///< of the technique, in the order given
     std::string camera;    ///< empty: the scene's first
     std::uint32_t width = 0, height = 0;
-    std::string device; ///< empty: the best one
+    bool size_given = false; ///< else the size is the command's own
+    std::string points;      ///< file of saved points; may be empty, or not be there yet
+    std::string device;      ///< empty: the best one
     bool validation = false;
 };
 

@@ -243,7 +243,7 @@ void write_rows(const std::vector<Panel>& panels, Workbench& bench, const Render
     std::vector<nlohmann::ordered_json> rows;
     for (const Panel& panel : panels)
         rows.push_back(
-            statistics_row(arguments.selectors, bench.camera_name(), bench.device().info(), panel.measurement));
+            statistics_row(bench.selectors(), bench.camera_name(), bench.device().info(), panel.measurement));
     write_statistics(arguments.stats, rows);
 }
 

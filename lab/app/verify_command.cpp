@@ -113,7 +113,7 @@ void write_rows(const std::vector<Verdict>& verdicts, Workbench& bench, const Ve
     std::vector<nlohmann::ordered_json> rows;
     for (const Verdict& verdict : verdicts)
         rows.push_back(
-            statistics_row(arguments.selectors, bench.camera_name(), bench.device().info(), verdict.measurement));
+            statistics_row(bench.selectors(), bench.camera_name(), bench.device().info(), verdict.measurement));
     write_statistics(arguments.stats, rows);
 }
 

@@ -1,6 +1,7 @@
 #include "lab/app/workbench.h"
 
 #include "lab/app/number_scale.h"
+#include "lab/app/saved_view.h"
 #include "lab/scene/error.h"
 
 #include <fmt/format.h>
@@ -12,10 +13,10 @@ namespace {
 
 gpu::DeviceOptions device_options(const Selectors& selectors) { return {selectors.device, selectors.validation}; }
 
-PointBuffer draw_points(const Selectors& selectors, const Scene& scene, const Camera& camera, gpu::Device& device,
-                        Renderer& renderer) {
+PointBuffer checked_points(gpu::Device& device, const Selectors& selectors, const Scene& scene, const Camera& camera,
+                           const std::optional<SavedPoints>& saved) {
     check_memory(selectors, scene, device.info());
-    return renderer.render_points(camera, selectors.width, selectors.height);
+    return make_points(device, selectors, scene, camera, saved);
 }
 
 } // namespace
@@ -35,17 +36,19 @@ void check_memory(const Selectors& selectors, const Scene& scene, const gpu::Dev
 }
 
 Workbench::Workbench(const Selectors& selectors)
-    : selectors_(selectors), scene_(load_scene(selectors.scene, selectors.detail)),
-      camera_(find_camera(scene_, selectors.camera)), lights_(make_lights(scene_, camera_, selectors.lights)),
-      device_(device_options(selectors)), renderer_(device_, scene_),
-      points_(draw_points(selectors, scene_, camera_, device_, renderer_)), frame_{scene_,          camera_,
-                                                                                   selectors.width, selectors.height,
-                                                                                   lights_.lights,  points_} {}
+    : scene_(load_scene(selectors.scene, selectors.detail)), saved_(find_saved_points(selectors, scene_)),
+      selectors_(with_saved_view(selectors, saved_)),
+      camera_(saved_ ? saved_->camera : find_camera(scene_, selectors.camera)),
+      lights_(make_lights(scene_, camera_, selectors.lights)), device_(device_options(selectors)),
+      points_(checked_points(device_, selectors_, scene_, camera_, saved_)), frame_{scene_,           camera_,
+                                                                                    selectors_.width, selectors_.height,
+                                                                                    lights_.lights,   points_} {}
 
 std::string Workbench::description() const {
-    return fmt::format("{}, {} lights ({}, seed {}), camera {}, {}x{}, {}", selectors_.scene,
+    return fmt::format("{}, {} lights ({}, seed {}), camera {}, {}x{}{}, {}", selectors_.scene,
                        with_separators(lights_.lights.size()), selectors_.lights.distribution, selectors_.lights.seed,
-                       camera_name(), selectors_.width, selectors_.height, device_.info().name);
+                       camera_name(), selectors_.width, selectors_.height,
+                       saved_ ? fmt::format(", points from {}", selectors_.points) : "", device_.info().name);
 }
 
 std::string Workbench::camera_name() const { return selectors_.camera.empty() ? camera_.name : selectors_.camera; }

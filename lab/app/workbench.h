@@ -4,7 +4,7 @@
 #include "lab/app/arguments.h"
 #include "lab/gpu/device.h"
 #include "lab/renderer/point_buffer.h"
-#include "lab/renderer/renderer.h"
+#include "lab/renderer/saved_points.h"
 
 namespace manylights::lab::app {
 
@@ -26,7 +26,9 @@ class Workbench {
     const Scene& scene() const { return scene_; }
     const LightSet& lights() const { return lights_; }
     const Frame& frame() const { return frame_; }
-    /// Scene, lights, camera, size and device, in one line.
+    /// As given to the constructor, with the camera and the size of saved points where there are some.
+    const Selectors& selectors() const { return selectors_; }
+    /// Scene, lights, camera, size, where the points come from if not from here, and device, in one line.
     std::string description() const;
     std::string camera_name() const;               ///< as selected; the scene's default camera by its own name
     std::vector<std::uint8_t> shaded_mask() const; ///< 1 per pixel with a surface
@@ -37,12 +39,12 @@ class Workbench {
     std::unique_ptr<Technique> make_prepared(const std::string& name, int builds);
 
   private:
-    Selectors selectors_;
     Scene scene_;
+    std::optional<SavedPoints> saved_;
+    Selectors selectors_;
     Camera camera_;
     LightSet lights_;
     gpu::Device device_;
-    Renderer renderer_;
     PointBuffer points_;
     Frame frame_;
 };

@@ -30,6 +30,8 @@ TEST(Arguments, render_has_sensible_defaults_for_everything_but_the_file) {
     EXPECT_EQ(render.selectors.detail, Detail::full);
     EXPECT_EQ(render.selectors.width, 960u);
     EXPECT_EQ(render.selectors.height, 540u);
+    EXPECT_FALSE(render.selectors.size_given);
+    EXPECT_EQ(render.selectors.points, "");
     EXPECT_EQ(render.techniques, std::vector<std::string>{"hybrid_light_trees"});
     EXPECT_EQ(render.view, ViewKind::shaded);
     EXPECT_FALSE(render.scale_max);
@@ -71,12 +73,16 @@ TEST(Arguments, render_takes_every_option) {
                                                                       "b.exr",
                                                                       "--stats",
                                                                       "b.json",
+                                                                      "--points",
+                                                                      "b.points",
                                                                       "--validation"}));
     EXPECT_EQ(render.selectors.lights.count, 0u);
     EXPECT_EQ(render.selectors.lights.seed, 4294967295u);
     EXPECT_EQ(render.selectors.settings, (OptionValues{{"tile_size", "32"}, {"slice_count", "8"}}));
     EXPECT_EQ(render.selectors.width, 8192u);
     EXPECT_EQ(render.selectors.height, 1u);
+    EXPECT_TRUE(render.selectors.size_given);
+    EXPECT_EQ(render.selectors.points, "b.points");
     EXPECT_EQ(render.selectors.detail, Detail::low);
     EXPECT_EQ(render.view, ViewKind::references);
     EXPECT_EQ(render.scale_max, 140.0);
