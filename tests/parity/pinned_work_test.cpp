@@ -1,0 +1,122 @@
+// What each technique does at the pinned points, in literal numbers: another machine has the same ones, or fails.
+
+#include "lab/renderer/renderer.h"
+#include "lab/renderer/scene_buffers.h"
+#include "lab/techniques/verification.h"
+#include "tests/parity/techniques_fixture.h"
+#include "tests/unit/points/pinned_view.h"
+
+#include <stdexcept>
+
+namespace manylights::lab {
+namespace {
+
+/// Totals over the points, and what the structure is made of.
+struct Work {
+    std::uint64_t tested, nodes, references;
+    std::uint64_t visible_lights, structure_references, structure_bytes;
+    bool operator==(const Work&) const = default;
+};
+
+void PrintTo(const Work& work, std::ostream* out) {
+    *out << "{" << work.tested << ", " << work.nodes << ", " << work.references << ", " << work.visible_lights << ", "
+         << work.structure_references << ", " << work.structure_bytes << "}";
+}
+
+struct PinnedWork {
+    const char* scene;
+    const char* technique;
+    Work work;
+};
+
+/// Tiles of 8 pixels, so that the small images have 4x3 of them; everything else as it is by default.
+constexpr PinnedWork kPinnedWork[] = {
+    {"canyon", "brute_force", {1990656, 0, 0, 4096, 0, 0}},
+    {"canyon", "clustered", {37188, 0, 37188, 4096, 10849, 45064}},
+    {"canyon", "tiled_light_trees", {26807, 23596, 26807, 4096, 6561, 99948}},
+    {"canyon", "hybrid_light_trees", {28346, 5358, 28346, 4096, 10849, 116808}},
+    {"citadel", "brute_force", {1110016, 0, 0, 4096, 0, 0}},
+    {"citadel", "clustered", {12570, 0, 12570, 3195, 12654, 52284}},
+    {"citadel", "tiled_light_trees", {9947, 9867, 9947, 3195, 7688, 130056}},
+    {"citadel", "hybrid_light_trees", {10353, 1303, 10353, 3195, 12654, 167484}},
+    {"bars", "brute_force", {2093056, 0, 0, 4096, 0, 0}},
+    {"bars", "clustered", {37737, 0, 37737, 3250, 12893, 53240}},
+    {"bars", "tiled_light_trees", {29393, 24489, 29393, 3250, 6331, 101076}},
+    {"bars", "hybrid_light_trees", {30999, 5327, 30999, 3250, 12893, 145512}},
+    {"cornell", "brute_force", {1183744, 0, 0, 4096, 0, 0}},
+    {"cornell", "clustered", {87725, 0, 87725, 4096, 7941, 33432}},
+    {"cornell", "tiled_light_trees", {43382, 30975, 43382, 4096, 5351, 86916}},
+    {"cornell", "hybrid_light_trees", {42853, 29879, 42853, 4096, 7941, 121640}},
+};
+
+class PinnedWorkTest : public TechniquesTest, public testing::WithParamInterface<PinnedWork> {};
+
+const PinnedView& view_of(const PinnedWork& pinned) {
+    for (const PinnedView& view : kPinnedViews)
+        if (std::string(view.scene) == pinned.scene) return view;
+    throw std::logic_error(std::string("no pinned view of ") + pinned.scene);
+}
+
+Work work_of(const std::vector<PixelRecord>& records, const TechniqueStats& stats) {
+    Work work{0, 0, 0, stats.visible_lights, stats.references, stats.structure_bytes};
+    for (const PixelRecord& record : records) {
+        work.tested += record.tested;
+        work.nodes += record.nodes;
+        work.references += record.references;
+    }
+    return work;
+}
+
+TEST_P(PinnedWorkTest, is_what_is_pinned) {
+    const PinnedView& pinned = view_of(GetParam());
+    const LoadedView view = load_view(pinned);
+    const PointBuffer points = restore_points(device(), view.saved, material_records(view.scene));
+    const Frame frame{view.scene, view.saved.camera, view.saved.width, view.saved.height, view.lights, points};
+    const bool has_tiles = std::string(GetParam().technique) != kBruteForce.technique;
+    const std::unique_ptr<Technique> technique =
+        make_technique(device(), GetParam().technique, has_tiles ? OptionValues{{"tile_size", "8"}} : OptionValues{});
+    technique->prepare(frame);
+    const std::vector<PixelRecord> records = technique->record(frame);
+    EXPECT_EQ(light_set_hash(records), pinned.light_set_hash) << std::hex << light_set_hash(records);
+    EXPECT_EQ(work_of(records, technique->stats()), GetParam().work);
+}
+
+INSTANTIATE_TEST_SUITE_P(Views, PinnedWorkTest, testing::ValuesIn(kPinnedWork), [](const auto& pinned) {
+    return std::string(pinned.param.scene) + "_" + pinned.param.technique;
+});
+
+class SavedPointsTest : public TechniquesTest {};
+
+// Sky included, which a saved view only implies.
+TEST_F(SavedPointsTest, restored_points_are_the_drawn_ones_bit_for_bit) {
+    const Scene scene = load_scene("cornell", Detail::low);
+    const Camera& camera = scene.cameras.front();
+    const PointBuffer drawn = Renderer(device(), scene).render_points(camera, 47, 33);
+    const SavedPoints saved = save_points("cornell", camera, drawn);
+    EXPECT_GT(saved.points.size(), 100u);
+    EXPECT_LT(saved.points.size(), std::size_t{47 * 33}) << "no sky to test";
+    EXPECT_EQ(broken_material(saved, scene.materials.size()), "");
+    const PointBuffer restored = restore_points(device(), saved, material_records(scene));
+    EXPECT_EQ(restored.width(), 47u);
+    EXPECT_EQ(restored.height(), 33u);
+    const auto words = [](const gpu::Buffer& buffer) { return buffer.download<std::uint32_t>(); };
+    EXPECT_EQ(words(restored.positions()), words(drawn.positions()));
+    EXPECT_EQ(words(restored.normals()), words(drawn.normals()));
+    EXPECT_EQ(words(restored.materials()), words(drawn.materials()));
+}
+
+TEST_F(SavedPointsTest, what_the_renderer_draws_keeps_the_rules) {
+    for (const SceneInfo& info : builtin_scenes()) {
+        const Scene scene = load_scene(info.name, Detail::low);
+        Renderer renderer(device(), scene);
+        std::vector<Camera> cameras = scene.cameras;
+        cameras.insert(cameras.end(), scene.path.begin(), scene.path.end());
+        for (const Camera& camera : cameras) {
+            const SavedPoints saved = save_points(info.name, camera, renderer.render_points(camera, 160, 90));
+            EXPECT_EQ(broken_rule(saved), "") << info.name << " " << camera.name;
+        }
+    }
+}
+
+} // namespace
+} // namespace manylights::lab
