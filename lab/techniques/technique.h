@@ -3,6 +3,7 @@
 // included, so that one harness proves and measures them alike.
 
 #include "lab/scene/scene.h"
+#include "lab/techniques/wave_cost.h"
 
 #include <cstdint>
 #include <memory>
@@ -79,6 +80,9 @@ class Technique {
 
     /// Shades every point without counters into linear radiance, RGB floats per pixel. Repeatable; adds to shade_ms.
     virtual std::vector<float> shade(const Frame& frame) = 0;
+
+    /// What the sampled waves of this frame do: the modelled cost (docs/measuring.md). The same in every run.
+    virtual WaveSummary waves(const Frame& frame) = 0;
 
     /// Per pixel of the image: which kind of cell a tile's pixels walk. Empty where the technique has no cells.
     virtual std::vector<CellClass> classify(const Frame& frame) = 0;
