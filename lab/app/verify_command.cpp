@@ -61,17 +61,24 @@ Verdict judge(Workbench& bench, Technique& technique, const std::vector<PixelRec
                            summarize(records),
                            technique.stats(),
                            light_set_hash(records),
-                           verdict.result.missing_points};
+                           verdict.result.missing_points,
+                           std::nullopt};
     return verdict;
 }
 
-Verdict judge(Workbench& bench, const std::string& name, const Truth& truth, bool remove_one, Progress& progress) {
+Verdict judge(Workbench& bench, const std::string& name, const Truth& truth, const VerifyArguments& arguments,
+              Progress& progress) {
     progress.at(fmt::format("{}: building and shading", name));
+    const bool remove_one = name == arguments.remove_one_light;
     // The truth is not computed twice; its image is still checked against its records.
-    if (name == kTruth && !remove_one) return judge(bench, *truth.technique, truth.records, truth);
-    const std::unique_ptr<Technique> technique = bench.make_prepared(name, kTimedBuilds);
-    if (remove_one) damage(*technique, bench.frame());
-    return judge(bench, *technique, technique->record(bench.frame()), truth);
+    const bool is_truth = name == kTruth && !remove_one;
+    std::unique_ptr<Technique> made;
+    if (!is_truth) made = bench.make_prepared(name, kTimedBuilds);
+    Technique& technique = is_truth ? *truth.technique : *made;
+    if (remove_one) damage(technique, bench.frame());
+    Verdict verdict = judge(bench, technique, is_truth ? truth.records : technique.record(bench.frame()), truth);
+    if (!arguments.stats.empty()) verdict.measurement.waves = technique.waves(bench.frame());
+    return verdict;
 }
 
 std::string verdict_text(const Verdict& verdict) {
@@ -122,7 +129,7 @@ std::vector<Verdict> judge_all(Workbench& bench, const VerifyArguments& argument
     const Truth truth = find_truth(bench, progress);
     std::vector<Verdict> verdicts;
     for (const std::string& name : arguments.techniques)
-        verdicts.push_back(judge(bench, name, truth, name == arguments.remove_one_light, progress));
+        verdicts.push_back(judge(bench, name, truth, arguments, progress));
     return verdicts;
 }
 
