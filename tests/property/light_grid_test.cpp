@@ -106,6 +106,21 @@ TEST(LightGrid, lights_that_reach_a_point_only_just) {
     }
 }
 
+// The box must reach the point's cell, which begins, or ends, at the point: any smaller one loses the light.
+TEST(LightGrid, lights_that_reach_the_edge_of_a_cell_only_just) {
+    Random random(11);
+    for (int i = 0; i < 2000; ++i) {
+        const auto whole = [&random] { return static_cast<float>(64 * random.integer(-3, 3)); }; // edges are shorter
+        const MlFloat3 edge{whole(), whole(), whole()};
+        const float distance = static_cast<float>(random.sign() * random.octaves(-6, 3));
+        MlFloat3 center = edge;
+        (i % 3 == 0 ? center.x : i % 3 == 1 ? center.y : center.z) += distance;
+        std::vector<MlFloat3> points;
+        add_neighbours(edge, points);
+        EXPECT_GE(expect_equal({{center, least_range(edge, center), 7}}, points), 1u);
+    }
+}
+
 TEST(LightGrid, corners_of_cells) {
     Random random(4);
     std::vector<RelativeLight> lights;
