@@ -49,7 +49,8 @@ void damage(Technique& technique, const Frame& frame) {
             fmt::format("--remove-one-light '{}': there is no reference to remove", technique.info().name));
 }
 
-Verdict judge(Workbench& bench, Technique& technique, const std::vector<PixelRecord>& records, const Truth& truth) {
+Verdict judge(Workbench& bench, Technique& technique, const std::vector<PixelRecord>& records, const Truth& truth,
+              const VerifyArguments& arguments) {
     const Frame& frame = bench.frame();
     const std::string& name = technique.info().name;
     const std::vector<float> radiance = technique.shade(frame);
@@ -63,6 +64,7 @@ Verdict judge(Workbench& bench, Technique& technique, const std::vector<PixelRec
                            light_set_hash(records),
                            verdict.result.missing_points,
                            std::nullopt};
+    if (!arguments.stats.empty()) verdict.measurement.waves = technique.waves(frame);
     return verdict;
 }
 
@@ -71,14 +73,10 @@ Verdict judge(Workbench& bench, const std::string& name, const Truth& truth, con
     progress.at(fmt::format("{}: building and shading", name));
     const bool remove_one = name == arguments.remove_one_light;
     // The truth is not computed twice; its image is still checked against its records.
-    const bool is_truth = name == kTruth && !remove_one;
-    std::unique_ptr<Technique> made;
-    if (!is_truth) made = bench.make_prepared(name, kTimedBuilds);
-    Technique& technique = is_truth ? *truth.technique : *made;
-    if (remove_one) damage(technique, bench.frame());
-    Verdict verdict = judge(bench, technique, is_truth ? truth.records : technique.record(bench.frame()), truth);
-    if (!arguments.stats.empty()) verdict.measurement.waves = technique.waves(bench.frame());
-    return verdict;
+    if (name == kTruth && !remove_one) return judge(bench, *truth.technique, truth.records, truth, arguments);
+    const std::unique_ptr<Technique> technique = bench.make_prepared(name, kTimedBuilds);
+    if (remove_one) damage(*technique, bench.frame());
+    return judge(bench, *technique, technique->record(bench.frame()), truth, arguments);
 }
 
 std::string verdict_text(const Verdict& verdict) {
