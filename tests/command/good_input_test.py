@@ -72,7 +72,7 @@ class Verify(CommandTest):
     def test_all_techniques_are_exact(self):
         done = self.assert_done("verify", *SMALL, "--techniques", "all", "--stats", "a.json")
         self.assertEqual(done.stderr, "")
-        for name in ("brute_force", *CELLS):
+        for name in ("brute_force", "exact", *CELLS):
             self.assertRegex(done.stdout, rf"(?m)^{name} .* 0  exact$")
         with open(self.path("a.json")) as file:
             self.assertEqual([row["missing_points"] for row in json.load(file)], [0] * 4)
@@ -83,7 +83,7 @@ class Verify(CommandTest):
         self.assertRegex(done.stdout, r"(?m)^hybrid_light_trees +tile_size=16 leaf_size=2  ")
 
     def test_a_removed_light_is_found_and_named(self):
-        for name in CELLS:
+        for name in ("exact", *CELLS):
             done = self.assert_done("verify", *SMALL, "--remove-one-light", name, code=1)
             self.assertRegex(done.stderr, rf"\Amanylights: {name}: \d+ of 2304 points differ from brute_force; first at "
                              r"pixel \(\d+, \d+\): \d+ of \d+ affecting lights, missing light \d+\n\Z")
@@ -101,7 +101,7 @@ class List(CommandTest):
     def test_lines(self):
         for what, names in {
                 "scenes": ("cornell", "bars", "canyon", "citadel"),
-                "techniques": ("brute_force", *CELLS),
+                "techniques": ("brute_force", "exact", *CELLS),
         }.items():
             lines = self.assert_done("list", what).stdout.splitlines()
             for name in names:
