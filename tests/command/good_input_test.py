@@ -92,6 +92,59 @@ class Verify(CommandTest):
                 if other != name:
                     self.assertRegex(done.stdout, rf"(?m)^{other} .*  exact$")
 
+    def test_the_truth_is_brute_force_where_that_is_quick(self):
+        done = self.assert_done("verify", *SMALL, "--techniques", "clustered")
+        self.assertRegex(done.stdout, r"(?m)^truth: brute_force at all [\d,]+ points$")
+
+    def test_the_grid_says_how_it_was_checked(self):
+        done = self.assert_done("verify", *SMALL, "--truth", "grid")
+        self.assertEqual(done.stderr, "")
+        points = re.search(r"(?m)^truth: grid oracle, itself equal to brute_force at ([\d,]+) of ([\d,]+) points; "
+                           r"radiance: brute_force$", done.stdout)
+        self.assertIsNotNone(points, done.stdout)
+        self.assertEqual(points[1], points[2])
+        for name in ("brute_force", *CELLS):
+            self.assertRegex(done.stdout, rf"(?m)^{name} .* 0  exact$")
+
+    def test_the_grid_finds_the_light_sets_of_brute_force(self):
+        for truth in ("brute_force", "grid"):
+            self.assert_done("verify", *SMALL, "--truth", truth, "--techniques", "clustered", "--stats", truth + ".json")
+        rows = []
+        for truth in ("brute_force", "grid"):
+            with open(self.path(truth + ".json")) as file:
+                rows.append(json.load(file))
+        self.assertEqual(rows[0]["light_set_hash"], rows[1]["light_set_hash"])
+        self.assertEqual([row["missing_points"] for row in rows], [0, 0])
+
+    def test_a_removed_light_is_found_and_named_by_the_grid(self):
+        for name in CELLS:
+            done = self.assert_done("verify", *SMALL, "--truth", "grid", "--techniques", ",".join(CELLS),
+                                    "--remove-one-light", name, code=1)
+            self.assertRegex(done.stderr, rf"\Amanylights: {name}: \d+ of 2304 points differ from the grid oracle; first "
+                             r"at pixel \(\d+, \d+\): \d+ of \d+ affecting lights, missing light \d+\n\Z")
+            self.assertRegex(done.stdout, rf"(?m)^{name} .*  WRONG$")
+            self.assertEqual(len(re.findall(r"(?m)  exact$", done.stdout)), len(CELLS) - 1)
+
+    def test_a_wrong_grid_is_a_failed_check(self):
+        done = self.assert_done("verify", *SMALL, "--truth", "grid", "--remove-one-light", "grid", code=1)
+        self.assertRegex(done.stderr, r"\Amanylights: grid oracle: differs from brute_force at pixel \(\d+, \d+\), first "
+                         r"of [\d,]+ points checked\n\Z")
+        self.assertEqual(done.stdout, "")
+
+    def test_only_a_light_that_is_there_is_removed_from_the_grid(self):
+        remove = ["verify", *SMALL, "--remove-one-light", "grid"]
+        self.assert_refused([*remove, "--truth", "brute_force"], (2,), r"'grid': the truth is brute_force$")
+        self.assert_refused([*remove, "--truth", "grid", "--lights", "0"], (2,), r"'grid': there is no light to remove$")
+
+    def test_the_grid_leaves_brute_force_out_where_that_takes_long(self):
+        done = self.assert_done("verify", *SMALL, "--lights", "65536", "--size", "512x257")
+        self.assertRegex(done.stdout, r"(?m)^truth: grid oracle, itself equal to brute_force at 4,096 of [\d,]+ points; "
+                         r"radiance: clustered$")
+        self.assertRegex(done.stdout, r"(?m)^left out: brute_force, which takes more than 8,589,934,592 tests")
+        self.assertNotRegex(done.stdout, r"(?m)^brute_force ")
+        for name in CELLS:
+            self.assertRegex(done.stdout, rf"(?m)^{name} .* 0  exact$")
+
     def test_validation_is_active_and_silent(self):
         done = self.assert_done("verify", *SMALL, "--validation")
         self.assertRegex(done.stdout, r"(?m)^validation: core and synchronization active, 0 messages")
