@@ -108,8 +108,7 @@ void write_rows(const std::vector<Verdict>& verdicts, Workbench& bench, const Ve
 std::vector<Verdict> judge_all(Workbench& bench, const VerifyArguments& arguments, const Truth& truth,
                                Progress& progress) {
     std::vector<Verdict> verdicts;
-    for (const std::string& name : truth.techniques)
-        verdicts.push_back(judge(bench, name, truth, arguments, progress));
+    for (const std::string& name : truth.techniques) verdicts.push_back(judge(bench, name, truth, arguments, progress));
     return verdicts;
 }
 
