@@ -75,7 +75,11 @@ class Verify(CommandTest):
         for name in ("brute_force", "exact", *CELLS):
             self.assertRegex(done.stdout, rf"(?m)^{name} .* 0  exact$")
         with open(self.path("a.json")) as file:
-            self.assertEqual([row["missing_points"] for row in json.load(file)], [0] * 4)
+            rows = json.load(file)
+        self.assertEqual([row["missing_points"] for row in rows], [0] * 5)
+        cost = {row["technique"]: row["wave_cost_64"] for row in rows}
+        self.assertEqual(cost["brute_force"], 500)
+        self.assertEqual(min(cost, key=cost.get), "exact")
 
     def test_options_go_to_the_techniques_that_have_them(self):
         done = self.assert_done("verify", *SMALL, "--set", "tile_size=16", "--set", "leaf_size=2")
@@ -139,7 +143,7 @@ class Verify(CommandTest):
     def test_the_grid_leaves_brute_force_out_where_that_takes_long(self):
         done = self.assert_done("verify", *SMALL, "--lights", "65536", "--size", "512x257")
         self.assertRegex(done.stdout, r"(?m)^truth: grid oracle, itself equal to brute_force at 4,096 of [\d,]+ points; "
-                         r"radiance: clustered$")
+                         r"radiance: exact$")
         self.assertRegex(done.stdout, r"(?m)^left out: brute_force, which takes more than 8,589,934,592 tests")
         self.assertNotRegex(done.stdout, r"(?m)^brute_force ")
         for name in CELLS:
