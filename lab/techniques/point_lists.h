@@ -16,8 +16,12 @@ struct PointLists {
     }
 };
 
+/// The most that all lists of a view may hold together: 4 GiB, and no machine is made to swap.
+constexpr std::uint64_t kMostListedLights = std::uint64_t{1} << 30;
+
 /// points: of every pixel of the frame, row by row. The lists do not depend on the number of threads (0: one per
-/// processor).
-PointLists find_point_lists(const Frame& frame, std::span<const PointPosition> points, unsigned threads = 0);
+/// processor). Throws InputError where they would hold more than `most` lights.
+PointLists find_point_lists(const Frame& frame, std::span<const PointPosition> points, unsigned threads = 0,
+                            std::uint64_t most = kMostListedLights);
 
 } // namespace manylights::lab

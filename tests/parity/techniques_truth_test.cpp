@@ -2,6 +2,7 @@
 // damage.
 
 #include "lab/renderer/renderer.h"
+#include "lab/scene/error.h"
 #include "lab/scene/scene.h"
 #include "lab/techniques/light_stream.h"
 #include "lab/techniques/shared_work.h"
@@ -142,6 +143,13 @@ TEST_F(TruthTest, lists_are_the_same_for_any_number_of_threads) {
         EXPECT_EQ(several.first, one.first);
         EXPECT_EQ(several.lights, one.lights);
     }
+}
+
+TEST_F(TruthTest, lists_that_hold_too_much_are_refused) {
+    const View view = made_view(device(), 47, 33, 1234);
+    const std::uint64_t listed = lists_of(view).lights.size();
+    EXPECT_EQ(find_point_lists(view.frame(), view.positions, 0, listed).lights.size(), listed);
+    EXPECT_THROW((void)find_point_lists(view.frame(), view.positions, 0, listed - 1), InputError);
 }
 
 TEST_F(TruthTest, check_takes_all_points_of_a_small_view_and_enough_of_a_large_one) {
