@@ -16,11 +16,13 @@ namespace {
 constexpr std::array<const char*, 6> kViewNames = {"shaded", "tested", "affecting", "nodes", "references", "structure"};
 constexpr std::array<const char*, 4> kListNames = {"scenes", "techniques", "suites", "devices"};
 constexpr std::array<const char*, 2> kDetailNames = {"low", "full"};
+constexpr std::array<const char*, 3> kTruthNames = {"auto", "brute_force", kGrid};
 
 // Option values as they were typed; CLI11 finds them, the functions below judge them, so all refusals sound alike.
 struct Typed {
     std::string lights = "65536", seed = "1", kinds = "point", size, detail = "full", view = "shaded", scale_max;
     CLI::Option* size_option = nullptr;
+    std::string truth = "auto";
     std::vector<std::string> settings, techniques;
     std::string list;
 };
@@ -193,9 +195,12 @@ RenderArguments finish_render(RenderArguments render, const Typed& typed, const 
 
 VerifyArguments finish_verify(VerifyArguments verify, const Typed& typed) {
     read_selectors(typed, verify.selectors);
-    verify.techniques = read_techniques(typed.techniques.empty() ? std::vector<std::string>{"all"} : typed.techniques);
+    const std::vector<std::string> all = {"all"};
+    verify.all_techniques = typed.techniques.empty() || typed.techniques == all;
+    verify.techniques = read_techniques(verify.all_techniques ? all : typed.techniques);
     check_setting_keys(verify.selectors, verify.techniques);
-    if (verify.remove_one_light.empty()) return verify;
+    verify.truth = static_cast<TruthKind>(choice("--truth", typed.truth, kTruthNames));
+    if (verify.remove_one_light.empty() || verify.remove_one_light == kGrid) return verify;
     check_technique("--remove-one-light", verify.remove_one_light, verify.techniques);
     return verify;
 }
@@ -225,6 +230,10 @@ void add_verify(CLI::App& app, VerifyArguments& verify, Typed& typed) {
     app.add_option("--techniques", typed.techniques, "NAME,NAME,... or all [all]")
         ->delimiter(',')
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_option(
+        "--truth", typed.truth,
+        "what is right: brute_force; grid (a quick oracle, itself checked against brute force at 4,096 points); "
+        "or auto, brute force where that takes no longer than about half a minute [auto]");
     app.add_option("--stats", verify.stats, "FILE.json: work, bytes, times and missing points");
     // For tests of the proof itself: an empty group keeps it out of the help.
     app.add_option("--remove-one-light", verify.remove_one_light)->group("");
@@ -248,7 +257,8 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
     verify_typed.size = "256x144";
     std::string technique = "hybrid_light_trees";
     CLI::App* render_app = app.add_subcommand("render", "draw a picture of a scene, or of the work it took");
-    CLI::App* verify_app = app.add_subcommand("verify", "prove that no technique loses a light, against brute force");
+    CLI::App* verify_app =
+        app.add_subcommand("verify", "prove that no technique loses a light, against brute force or an oracle");
     CLI::App* list_app = app.add_subcommand("list", "what there is: scenes, techniques, suites or devices");
     add_render(*render_app, render, render_typed, technique);
     add_verify(*verify_app, verify, verify_typed);

@@ -16,6 +16,8 @@ namespace manylights::lab::app {
 constexpr std::uint32_t kMostLights = 1u << 24;
 constexpr std::uint32_t kLargestSide = 8192; ///< of an image, pixels
 
+constexpr const char* kGrid = "grid"; ///< the grid oracle where a technique could be named
+
 /// What is looked at and what computes it: common to render and verify.
 struct Selectors {
     std::string scene = "canyon";
@@ -43,11 +45,16 @@ struct RenderArguments {
     std::string panels; ///< name with {} for a technique's own picture; may be empty
 };
 
+/// What techniques are held to; automatic: brute force where that does not take too long, else the grid.
+enum class TruthKind { automatic, brute_force, grid };
+
 struct VerifyArguments {
     Selectors selectors;
     std::vector<std::string> techniques; ///< never empty
-    std::string stats;                   ///< may be empty
-    std::string remove_one_light;        ///< technique to damage on purpose; empty: none
+    bool all_techniques = false;         ///< none was named: they are all there are
+    TruthKind truth = TruthKind::automatic;
+    std::string stats;            ///< may be empty
+    std::string remove_one_light; ///< technique to damage on purpose, or kGrid; empty: none
 };
 
 enum class ListKind { scenes, techniques, suites, devices };

@@ -28,7 +28,7 @@ std::string image_difference(std::span<const float> truth, std::span<const float
     const Picture picture = tone_map(got, mask, width, height, exposure);
     for (std::size_t i = 0; i < wanted.rgb.size(); ++i)
         if (std::abs(int{wanted.rgb[i]} - int{picture.rgb.at(i)}) > 1)
-            return fmt::format("pixel ({}, {}) has {} where brute force has {}", i / 3 % width, i / 3 / width,
+            return fmt::format("pixel ({}, {}) has {} where the truth has {}", i / 3 % width, i / 3 / width,
                                picture.rgb[i], wanted.rgb[i]);
     return "";
 }

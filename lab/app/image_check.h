@@ -1,5 +1,5 @@
 #pragma once
-// A shaded image against the one that brute force's records give.
+// A shaded image against the one that the true records give.
 
 #include "lab/techniques/technique.h"
 

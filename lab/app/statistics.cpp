@@ -29,6 +29,8 @@ ordered_json options_object(const OptionValues& options) {
     return object;
 }
 
+ordered_json wave_cost(const WaveWork& work) { return mean_wave_cost(work, kDefaultWeights); }
+
 std::string temporary_name(const std::string& path) { return path + ".partial"; }
 
 } // namespace
@@ -61,8 +63,8 @@ ordered_json statistics_row(const Selectors& selectors, const std::string& camer
     row["affecting_mean"] = m.work.affecting_mean;
     row["nodes_mean"] = m.work.nodes_mean;
     row["references_mean"] = m.work.references_mean;
-    row["wave_cost_64"] = nullptr;
-    row["wave_cost_32"] = nullptr;
+    row["wave_cost_64"] = m.waves ? wave_cost(m.waves->lanes_64) : ordered_json(nullptr);
+    row["wave_cost_32"] = m.waves ? wave_cost(m.waves->lanes_32) : ordered_json(nullptr);
     row["references"] = m.stats.references;
     row["structure_bytes"] = m.stats.structure_bytes;
     row["build_ms"] = times(m.stats.build_ms);

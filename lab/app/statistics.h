@@ -19,6 +19,7 @@ struct Measurement {
     TechniqueStats stats;
     std::uint64_t light_set_hash = 0;
     std::optional<std::uint64_t> missing_points; ///< empty where nothing was compared
+    std::optional<WaveSummary> waves;            ///< empty where nobody asked for them
 };
 
 /// Keys in the schema's order; null where nothing was measured (the modelled wave costs, times without a repeat).

@@ -3,6 +3,7 @@
 #include "lab/app/progress.h"
 #include "lab/app/statistics.h"
 #include "lab/app/validation_report.h"
+#include "lab/app/verify_truth.h"
 #include "lab/app/work_table.h"
 #include "lab/app/workbench.h"
 #include "lab/scene/error.h"
@@ -17,8 +18,6 @@
 namespace manylights::lab::app {
 namespace {
 
-constexpr const char* kTruth = "brute_force";
-
 struct Verdict {
     Measurement measurement;
     VerifyResult result;
@@ -26,30 +25,14 @@ struct Verdict {
     bool right() const { return result.exact() && image.empty(); }
 };
 
-struct Truth {
-    std::unique_ptr<Technique> technique; ///< brute force, prepared
-    std::vector<PixelRecord> records;
-    std::vector<float> radiance;
-    std::vector<std::uint8_t> mask;
-};
-
-Truth find_truth(Workbench& bench, Progress& progress) {
-    progress.at(fmt::format("{}: testing every light at every pixel", kTruth));
-    Truth truth;
-    truth.technique = bench.make_prepared(kTruth, 1);
-    truth.records = truth.technique->record(bench.frame());
-    truth.radiance = radiance_of(truth.records);
-    truth.mask = bench.shaded_mask();
-    return truth;
-}
-
 void damage(Technique& technique, const Frame& frame) {
     if (!technique.remove_one_reference(frame))
         throw InputError(
             fmt::format("--remove-one-light '{}': there is no reference to remove", technique.info().name));
 }
 
-Verdict judge(Workbench& bench, Technique& technique, const std::vector<PixelRecord>& records, const Truth& truth) {
+Verdict judge(Workbench& bench, Technique& technique, const std::vector<PixelRecord>& records, const Truth& truth,
+              const VerifyArguments& arguments) {
     const Frame& frame = bench.frame();
     const std::string& name = technique.info().name;
     const std::vector<float> radiance = technique.shade(frame);
@@ -61,17 +44,22 @@ Verdict judge(Workbench& bench, Technique& technique, const std::vector<PixelRec
                            summarize(records),
                            technique.stats(),
                            light_set_hash(records),
-                           verdict.result.missing_points};
+                           verdict.result.missing_points,
+                           std::nullopt};
+    if (!arguments.stats.empty()) verdict.measurement.waves = technique.waves(frame);
     return verdict;
 }
 
-Verdict judge(Workbench& bench, const std::string& name, const Truth& truth, bool remove_one, Progress& progress) {
+Verdict judge(Workbench& bench, const std::string& name, const Truth& truth, const VerifyArguments& arguments,
+              Progress& progress) {
     progress.at(fmt::format("{}: building and shading", name));
-    // The truth is not computed twice; its image is still checked against its records.
-    if (name == kTruth && !remove_one) return judge(bench, *truth.technique, truth.records, truth);
+    const bool remove_one = name == arguments.remove_one_light;
+    // What the truth took is not computed twice; its image is still checked against its records.
+    if (name == truth.shader->info().name && !remove_one)
+        return judge(bench, *truth.shader, truth.shaded, truth, arguments);
     const std::unique_ptr<Technique> technique = bench.make_prepared(name, kTimedBuilds);
     if (remove_one) damage(*technique, bench.frame());
-    return judge(bench, *technique, technique->record(bench.frame()), truth);
+    return judge(bench, *technique, technique->record(bench.frame()), truth, arguments);
 }
 
 std::string verdict_text(const Verdict& verdict) {
@@ -99,12 +87,12 @@ std::string lost_lights(const VerifyResult& result, const Workbench& bench) {
     return fmt::format(", missing light{} {}", lost.size() > 1 ? "s" : "", fmt::join(lost, " and "));
 }
 
-std::string failure(const Verdict& verdict, const Workbench& bench) {
+std::string failure(const Verdict& verdict, const Truth& truth, const Workbench& bench) {
     const std::string& name = verdict.measurement.technique;
     if (verdict.result.exact()) return fmt::format("{}: shaded image: {}", name, verdict.image);
     const VerifyResult& result = verdict.result;
     return fmt::format("{}: {} of {} points differ from {}; first at pixel ({}, {}): {} of {} affecting lights{}", name,
-                       result.wrong_pixels, result.pixels, kTruth, result.first_x, result.first_y,
+                       result.wrong_pixels, result.pixels, truth.name, result.first_x, result.first_y,
                        result.first_got.affecting, result.first_truth.affecting, lost_lights(result, bench));
 }
 
@@ -117,13 +105,22 @@ void write_rows(const std::vector<Verdict>& verdicts, Workbench& bench, const Ve
     write_statistics(arguments.stats, rows);
 }
 
-std::vector<Verdict> judge_all(Workbench& bench, const VerifyArguments& arguments) {
-    Progress progress;
-    const Truth truth = find_truth(bench, progress);
+std::vector<Verdict> judge_all(Workbench& bench, const VerifyArguments& arguments, const Truth& truth,
+                               Progress& progress) {
     std::vector<Verdict> verdicts;
-    for (const std::string& name : arguments.techniques)
-        verdicts.push_back(judge(bench, name, truth, name == arguments.remove_one_light, progress));
+    for (const std::string& name : truth.techniques) verdicts.push_back(judge(bench, name, truth, arguments, progress));
     return verdicts;
+}
+
+int report(const std::vector<Verdict>& verdicts, const Truth& truth, const Workbench& bench) {
+    fmt::print("{}\n{}\n{}", bench.description(), truth.description, table_of(verdicts));
+    int code = kDone;
+    for (const Verdict& verdict : verdicts) {
+        if (verdict.right()) continue;
+        fmt::print(stderr, "manylights: {}\n", failure(verdict, truth, bench));
+        code = kCheckFailed;
+    }
+    return code;
 }
 
 } // namespace
@@ -131,14 +128,16 @@ std::vector<Verdict> judge_all(Workbench& bench, const VerifyArguments& argument
 int run_verify(const VerifyArguments& arguments) {
     if (!arguments.stats.empty()) check_statistics_path(arguments.stats);
     Workbench bench(arguments.selectors);
-    const std::vector<Verdict> verdicts = judge_all(bench, arguments);
-    fmt::print("{}\n{}", bench.description(), table_of(verdicts));
-    int code = kDone;
-    for (const Verdict& verdict : verdicts) {
-        if (verdict.right()) continue;
-        fmt::print(stderr, "manylights: {}\n", failure(verdict, bench));
-        code = kCheckFailed;
+    Progress progress;
+    const Truth truth = find_truth(bench, arguments, progress);
+    if (!truth.failure.empty()) {
+        progress.clear();
+        fmt::print(stderr, "manylights: {}\n", truth.failure);
+        return kCheckFailed;
     }
+    const std::vector<Verdict> verdicts = judge_all(bench, arguments, truth, progress);
+    progress.clear();
+    const int code = report(verdicts, truth, bench);
     write_rows(verdicts, bench, arguments);
     return std::max(code, report_validation(bench.device()));
 }

@@ -7,9 +7,14 @@ layout(std430, set = 0, binding = 8) readonly buffer Cells { MlCell d[]; } cells
 layout(std430, set = 0, binding = 9) readonly buffer Nodes { uvec4 d[]; } nodes;
 layout(std430, set = 0, binding = 10) readonly buffer References { uint d[]; } references;
 
+MlNode touched_node(uint i) {
+    touch_node(i);
+    return ml_node_from_words(nodes.d[i]);
+}
+
 #define ML_SLICE_EDGE(i) slice_edges.d[i]
 #define ML_CELL(i) cells.d[i]
-#define ML_NODE(i) ml_node_from_words(nodes.d[i])
+#define ML_NODE(i) touched_node(i)
 #define ML_REFERENCE(i) references.d[i]
 #include <manylights/query.h>
 
@@ -19,6 +24,7 @@ void main() {
         MlCursor cursor = ml_begin(views.d[0], vec2(pixel.coordinates) + 0.5, pixel.depth);
         uint light;
         while (ml_next(cursor, light)) {
+            touch_light(light);
             vec4 sphere = spheres.d[light];
             if (ml_affects(pixel.surface.position, sphere.xyz, sphere.w)) shade_light(pixel, light, sphere);
         }

@@ -3,6 +3,7 @@
 #include "lab/scene/error.h"
 #include "lab/techniques/brute_force/brute_force.h"
 #include "lab/techniques/clustered/clustered.h"
+#include "lab/techniques/exact/exact.h"
 #include "lab/techniques/hybrid_light_trees/hybrid_light_trees.h"
 #include "lab/techniques/tiled_light_trees/tiled_light_trees.h"
 
@@ -17,6 +18,7 @@ struct Entry {
 
 constexpr Entry kTechniques[] = {
     {brute_force_info, make_brute_force},
+    {exact_info, make_exact},
     {clustered_info, make_clustered},
     {tiled_light_trees_info, make_tiled_light_trees},
     {hybrid_light_trees_info, make_hybrid_light_trees},

@@ -6,7 +6,7 @@
 #include "lab/gpu/commands.h"
 #include "lab/gpu/compute_pipeline.h"
 #include "lab/techniques/light_stream.h"
-#include "lab/techniques/technique.h"
+#include "lab/techniques/touch_log.h"
 
 namespace manylights::lab {
 
@@ -17,40 +17,40 @@ struct FrameLights {
     gpu::Buffer spheres, colors;
 };
 
-/// The two forms of a technique's shader: `record` writes PixelRecord, `shade` writes three floats per pixel. Bindings
-/// are those of shading_pass.glsl, then the structure's.
+/// The forms of a technique's shader: `record` writes PixelRecord, `shade` writes three floats per pixel, `log` writes
+/// what the lanes of sampled waves touch. Bindings are those of shading_pass.glsl, then the structure's.
 struct PassShaders {
     std::string name;
-    std::span<const std::uint32_t> record, shade;
+    std::span<const std::uint32_t> record, shade, log;
     std::uint32_t structure_buffers = 0;
 };
-
-/// How many lights a dispatch may take: all, or as many as keep its tests of a light against a pixel below a bound
-/// (brute force), so that no submission runs for long.
-enum class LightSplit { none, bounded };
 
 class ShadingPass {
   public:
     ShadingPass(gpu::Device& device, const PassShaders& shaders, LightSplit split);
 
-    std::vector<PixelRecord> record(const Frame& frame, const FrameLights& lights,
-                                    std::span<const gpu::Buffer* const> structure);
+    /// bands: from the first row to the last, together the whole image.
+    std::vector<PixelRecord> record(const Frame& frame, const FrameLights& lights, std::span<const PassBand> bands);
     /// Adds one element to shade_ms: the sum of the device's time over all submissions.
-    std::vector<float> shade(const Frame& frame, const FrameLights& lights,
-                             std::span<const gpu::Buffer* const> structure, std::vector<double>& shade_ms);
+    std::vector<float> shade(const Frame& frame, const FrameLights& lights, std::span<const PassBand> bands,
+                             std::vector<double>& shade_ms);
+    /// tested_by_all, log_bytes: as in TouchLogInput.
+    WaveSummary waves(const Frame& frame, const FrameLights& lights, std::span<const PassBand> bands,
+                      std::uint64_t tested_by_all = 0, std::uint64_t log_bytes = kLogBytes);
 
   private:
     template <typename T>
     std::vector<T> run(const gpu::ComputePipeline& pipeline, const Frame& frame, const FrameLights& lights,
-                       std::span<const gpu::Buffer* const> structure, std::size_t elements_per_pixel,
-                       double& milliseconds);
+                       std::span<const PassBand> bands, std::size_t elements_per_pixel, double& milliseconds);
+    double dispatch(const gpu::ComputePipeline& pipeline, const Frame& frame, const FrameLights& lights,
+                    const PassBand& rows, const gpu::Buffer& output);
     gpu::ComputePipeline make_pipeline(const PassShaders& shaders, const char* form,
                                        std::span<const std::uint32_t> code);
     void warm_up(const gpu::ComputePipeline& pipeline);
 
     gpu::Device& device_;
     LightSplit split_;
-    gpu::ComputePipeline record_pipeline_, shade_pipeline_;
+    gpu::ComputePipeline record_pipeline_, shade_pipeline_, log_pipeline_;
     bool is_warm_ = false; ///< the shade pipeline has its machine code
 };
 

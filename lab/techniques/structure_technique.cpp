@@ -15,6 +15,9 @@ constexpr std::uint32_t kRecordCode[] =
 constexpr std::uint32_t kShadeCode[] =
 #include "cursor_shade.comp.inc"
     ;
+constexpr std::uint32_t kLogCode[] =
+#include "cursor_log.comp.inc"
+    ;
 
 std::unique_ptr<Producer> make_producer(const StructureOptions& options) {
     return options.producer == ProducerKind::paper ? make_paper_producer(options) : make_library_producer(options);
@@ -40,7 +43,7 @@ TechniqueInfo structure_technique_info(const char* name, const char* summary, St
 StructureTechnique::StructureTechnique(gpu::Device& device, TechniqueInfo info, StructureKind kind,
                                        const OptionValues& values)
     : device_(device), info_(std::move(info)), producer_(make_producer(read_structure_options(info_, kind, values))),
-      buffers_(device), pass_(device, {info_.name, kRecordCode, kShadeCode, 5}, LightSplit::none) {}
+      buffers_(device), pass_(device, {info_.name, kRecordCode, kShadeCode, kLogCode, 5}, LightSplit::none) {}
 
 // The time is the producer's alone: the lab's own allocation and its patterns are left out.
 void StructureTechnique::prepare(const Frame& frame) {
@@ -60,11 +63,15 @@ void StructureTechnique::prepare(const Frame& frame) {
 }
 
 std::vector<PixelRecord> StructureTechnique::record(const Frame& frame) {
-    return pass_.record(frame, lights_.value(), buffers_.bindings());
+    return pass_.record(frame, lights_.value(), one_band(frame, buffers_.bindings()));
 }
 
 std::vector<float> StructureTechnique::shade(const Frame& frame) {
-    return pass_.shade(frame, lights_.value(), buffers_.bindings(), stats_.shade_ms);
+    return pass_.shade(frame, lights_.value(), one_band(frame, buffers_.bindings()), stats_.shade_ms);
+}
+
+WaveSummary StructureTechnique::waves(const Frame& frame) {
+    return pass_.waves(frame, lights_.value(), one_band(frame, buffers_.bindings()));
 }
 
 std::vector<CellClass> StructureTechnique::classify(const Frame& frame) {

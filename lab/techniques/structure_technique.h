@@ -17,6 +17,7 @@ class StructureTechnique : public Technique {
     void prepare(const Frame& frame) override;
     std::vector<PixelRecord> record(const Frame& frame) override;
     std::vector<float> shade(const Frame& frame) override;
+    WaveSummary waves(const Frame& frame) override;
     std::vector<CellClass> classify(const Frame& frame) override;
     const TechniqueStats& stats() const override { return stats_; }
     bool remove_one_reference(const Frame& frame) override;

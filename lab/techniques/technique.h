@@ -3,6 +3,7 @@
 // included, so that one harness proves and measures them alike.
 
 #include "lab/scene/scene.h"
+#include "lab/techniques/wave_cost.h"
 
 #include <cstdint>
 #include <memory>
@@ -18,6 +19,7 @@ class Device;
 class Buffer;
 } // namespace gpu
 class PointBuffer; // lab/renderer/point_buffer.h: what is shaded
+struct PointLists; // point_lists.h
 
 /// What shading one pixel found. The sums of hashes identify the set of affecting lights whatever the order was; the
 /// `front` set holds those with N.L > 0. Radiance is fixed point, 2^-20, so its sum does not depend on the order
@@ -53,13 +55,15 @@ struct Frame {
     std::uint32_t width, height;
     std::span<const Light> lights;
     const PointBuffer& points; ///< on the device
+    const PointLists* lists =
+        nullptr; ///< of its points where the caller has them already; exact finds its own otherwise
 };
 
 struct TechniqueStats {
     std::uint64_t visible_lights = 0;
     std::uint64_t references = 0;
     std::uint64_t structure_bytes = 0;
-    std::vector<double> build_ms; ///< of each repeat
+    std::vector<double> build_ms; ///< of each repeat; empty where there is no build that a frame could pay
     std::vector<double> shade_ms;
 };
 
@@ -79,6 +83,9 @@ class Technique {
 
     /// Shades every point without counters into linear radiance, RGB floats per pixel. Repeatable; adds to shade_ms.
     virtual std::vector<float> shade(const Frame& frame) = 0;
+
+    /// What the sampled waves of this frame do: the modelled cost (docs/measuring.md). The same in every run.
+    virtual WaveSummary waves(const Frame& frame) = 0;
 
     /// Per pixel of the image: which kind of cell a tile's pixels walk. Empty where the technique has no cells.
     virtual std::vector<CellClass> classify(const Frame& frame) = 0;

@@ -1,5 +1,6 @@
 #pragma once
-// The proof: a technique's records against brute force's, pixel by pixel and bit by bit. No tolerance.
+// The proof: a technique's records against the truth, brute force's or the grid oracle's (truth.h), pixel by pixel and
+// bit by bit. No tolerance.
 
 #include "lab/techniques/technique.h"
 

@@ -54,7 +54,8 @@ class Render(CommandTest):
         self.assertGreaterEqual(row["tested_mean"], row["affecting_mean"])
         self.assertGreater(row["structure_bytes"], 0)
         self.assertIsNotNone(row["build_ms"]["median"])
-        self.assertIsNone(row["wave_cost_64"])
+        self.assertGreater(row["wave_cost_64"], 0)
+        self.assertGreater(row["wave_cost_32"], 0)
 
     def test_light_sets_are_the_same_for_every_technique(self):
         self.assert_done("render", *SMALL, "--techniques", "all", "--view", "tested", "--out", "a.png", "--stats",
@@ -71,10 +72,14 @@ class Verify(CommandTest):
     def test_all_techniques_are_exact(self):
         done = self.assert_done("verify", *SMALL, "--techniques", "all", "--stats", "a.json")
         self.assertEqual(done.stderr, "")
-        for name in ("brute_force", *CELLS):
+        for name in ("brute_force", "exact", *CELLS):
             self.assertRegex(done.stdout, rf"(?m)^{name} .* 0  exact$")
         with open(self.path("a.json")) as file:
-            self.assertEqual([row["missing_points"] for row in json.load(file)], [0] * 4)
+            rows = json.load(file)
+        self.assertEqual([row["missing_points"] for row in rows], [0] * 5)
+        cost = {row["technique"]: row["wave_cost_64"] for row in rows}
+        self.assertEqual(cost["brute_force"], 500)
+        self.assertEqual(min(cost, key=cost.get), "exact")
 
     def test_options_go_to_the_techniques_that_have_them(self):
         done = self.assert_done("verify", *SMALL, "--set", "tile_size=16", "--set", "leaf_size=2")
@@ -82,7 +87,7 @@ class Verify(CommandTest):
         self.assertRegex(done.stdout, r"(?m)^hybrid_light_trees +tile_size=16 leaf_size=2  ")
 
     def test_a_removed_light_is_found_and_named(self):
-        for name in CELLS:
+        for name in ("exact", *CELLS):
             done = self.assert_done("verify", *SMALL, "--remove-one-light", name, code=1)
             self.assertRegex(done.stderr, rf"\Amanylights: {name}: \d+ of 2304 points differ from brute_force; first at "
                              r"pixel \(\d+, \d+\): \d+ of \d+ affecting lights, missing light \d+\n\Z")
@@ -90,6 +95,59 @@ class Verify(CommandTest):
             for other in CELLS:
                 if other != name:
                     self.assertRegex(done.stdout, rf"(?m)^{other} .*  exact$")
+
+    def test_the_truth_is_brute_force_where_that_is_quick(self):
+        done = self.assert_done("verify", *SMALL, "--techniques", "clustered")
+        self.assertRegex(done.stdout, r"(?m)^truth: brute_force at all [\d,]+ points$")
+
+    def test_the_grid_says_how_it_was_checked(self):
+        done = self.assert_done("verify", *SMALL, "--truth", "grid")
+        self.assertEqual(done.stderr, "")
+        points = re.search(r"(?m)^truth: grid oracle, itself equal to brute_force at ([\d,]+) of ([\d,]+) points; "
+                           r"radiance: brute_force$", done.stdout)
+        self.assertIsNotNone(points, done.stdout)
+        self.assertEqual(points[1], points[2])
+        for name in ("brute_force", *CELLS):
+            self.assertRegex(done.stdout, rf"(?m)^{name} .* 0  exact$")
+
+    def test_the_grid_finds_the_light_sets_of_brute_force(self):
+        for truth in ("brute_force", "grid"):
+            self.assert_done("verify", *SMALL, "--truth", truth, "--techniques", "clustered", "--stats", truth + ".json")
+        rows = []
+        for truth in ("brute_force", "grid"):
+            with open(self.path(truth + ".json")) as file:
+                rows.append(json.load(file))
+        self.assertEqual(rows[0]["light_set_hash"], rows[1]["light_set_hash"])
+        self.assertEqual([row["missing_points"] for row in rows], [0, 0])
+
+    def test_a_removed_light_is_found_and_named_by_the_grid(self):
+        for name in CELLS:
+            done = self.assert_done("verify", *SMALL, "--truth", "grid", "--techniques", ",".join(CELLS),
+                                    "--remove-one-light", name, code=1)
+            self.assertRegex(done.stderr, rf"\Amanylights: {name}: \d+ of 2304 points differ from the grid oracle; first "
+                             r"at pixel \(\d+, \d+\): \d+ of \d+ affecting lights, missing light \d+\n\Z")
+            self.assertRegex(done.stdout, rf"(?m)^{name} .*  WRONG$")
+            self.assertEqual(len(re.findall(r"(?m)  exact$", done.stdout)), len(CELLS) - 1)
+
+    def test_a_wrong_grid_is_a_failed_check(self):
+        done = self.assert_done("verify", *SMALL, "--truth", "grid", "--remove-one-light", "grid", code=1)
+        self.assertRegex(done.stderr, r"\Amanylights: grid oracle: differs from brute_force at pixel \(\d+, \d+\), first "
+                         r"of [\d,]+ points checked\n\Z")
+        self.assertEqual(done.stdout, "")
+
+    def test_only_a_light_that_is_there_is_removed_from_the_grid(self):
+        remove = ["verify", *SMALL, "--remove-one-light", "grid"]
+        self.assert_refused([*remove, "--truth", "brute_force"], (2,), r"'grid': the truth is brute_force$")
+        self.assert_refused([*remove, "--truth", "grid", "--lights", "0"], (2,), r"'grid': there is no light to remove$")
+
+    def test_the_grid_leaves_brute_force_out_where_that_takes_long(self):
+        done = self.assert_done("verify", *SMALL, "--lights", "65536", "--size", "512x257")
+        self.assertRegex(done.stdout, r"(?m)^truth: grid oracle, itself equal to brute_force at 4,096 of [\d,]+ points; "
+                         r"radiance: exact$")
+        self.assertRegex(done.stdout, r"(?m)^left out: brute_force, which takes more than 8,589,934,592 tests")
+        self.assertNotRegex(done.stdout, r"(?m)^brute_force ")
+        for name in CELLS:
+            self.assertRegex(done.stdout, rf"(?m)^{name} .* 0  exact$")
 
     def test_validation_is_active_and_silent(self):
         done = self.assert_done("verify", *SMALL, "--validation")
@@ -100,7 +158,7 @@ class List(CommandTest):
     def test_lines(self):
         for what, names in {
                 "scenes": ("cornell", "bars", "canyon", "citadel"),
-                "techniques": ("brute_force", *CELLS),
+                "techniques": ("brute_force", "exact", *CELLS),
         }.items():
             lines = self.assert_done("list", what).stdout.splitlines()
             for name in names:

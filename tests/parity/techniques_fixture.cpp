@@ -100,6 +100,12 @@ std::vector<Variant> structure_variants() {
             {"hybrid_light_trees_paper", "hybrid_light_trees", {{"producer", "paper"}}}};
 }
 
+std::vector<Variant> all_variants() {
+    std::vector<Variant> variants = structure_variants();
+    variants.push_back({"exact", "exact", {}});
+    return variants;
+}
+
 std::vector<PixelRecord> records_of(gpu::Device& device, const Variant& variant, const Frame& frame) {
     const std::unique_ptr<Technique> technique = make_technique(device, variant.technique, variant.options);
     technique->prepare(frame);

@@ -47,6 +47,8 @@ void PrintTo(const Variant& variant, std::ostream* out);
 
 /// The three structures from both producers.
 std::vector<Variant> structure_variants();
+/// All that is compared with brute force: the structures and exact.
+std::vector<Variant> all_variants();
 
 std::vector<PixelRecord> records_of(gpu::Device& device, const Variant& variant, const Frame& frame);
 inline const Variant kBruteForce{"brute_force", "brute_force", {}};

@@ -29,14 +29,15 @@ void expect_words(const std::string& message, const std::vector<std::string>& wo
 
 TEST_F(TechniquesTest, unknown_technique_names_the_choices) {
     const std::string message = refusal(device(), "magic", {});
-    expect_words(message, {"magic", "brute_force", "clustered", "tiled_light_trees", "hybrid_light_trees"});
+    expect_words(message, {"magic", "brute_force", "exact", "clustered", "tiled_light_trees", "hybrid_light_trees"});
 }
 
 TEST_F(TechniquesTest, unknown_option_names_the_keys) {
     expect_words(refusal(device(), "clustered", {{"leaf_size", "4"}}),
                  {"clustered", "leaf_size", "tile_size", "producer"});
     expect_words(refusal(device(), "tiled_light_trees", {{"slice_count", "4"}}), {"slice_count", "leaf_size"});
-    expect_words(refusal(device(), "brute_force", {{"tile_size", "48"}}), {"brute_force", "tile_size"});
+    for (const char* name : {"brute_force", "exact"})
+        expect_words(refusal(device(), name, {{"tile_size", "48"}}), {name, "tile_size"});
 }
 
 TEST_F(TechniquesTest, values_out_of_range_name_the_range) {
@@ -62,11 +63,12 @@ TEST_F(TechniquesTest, options_that_contradict_each_other_are_refused) {
 
 TEST(Techniques, infos_name_every_technique_and_their_options) {
     const std::vector<TechniqueInfo> infos = technique_infos();
-    ASSERT_EQ(infos.size(), 4u);
+    ASSERT_EQ(infos.size(), 5u);
     EXPECT_EQ(infos[0].name, "brute_force");
+    EXPECT_EQ(infos[1].name, "exact");
     for (const TechniqueInfo& info : infos) EXPECT_FALSE(info.summary.empty());
     EXPECT_TRUE(
-        std::ranges::any_of(infos[3].options, [](const OptionInfo& option) { return option.key == "leaf_size"; }));
+        std::ranges::any_of(infos[4].options, [](const OptionInfo& option) { return option.key == "leaf_size"; }));
 }
 
 TEST(Techniques, slices_follow_the_scene) {

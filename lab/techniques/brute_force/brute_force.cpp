@@ -15,12 +15,15 @@ constexpr std::uint32_t kRecordCode[] =
 constexpr std::uint32_t kShadeCode[] =
 #include "brute_force_shade.comp.inc"
     ;
+constexpr std::uint32_t kLogCode[] =
+#include "brute_force_log.comp.inc"
+    ;
 
 class BruteForce : public Technique {
   public:
     BruteForce(gpu::Device& device, const OptionValues& options)
         : device_(device), info_(brute_force_info()),
-          pass_(device, {info_.name, kRecordCode, kShadeCode, 0}, LightSplit::bounded) {
+          pass_(device, {info_.name, kRecordCode, kShadeCode, kLogCode, 0}, LightSplit::bounded) {
         const OptionReader checked(info_, options);
     }
 
@@ -32,10 +35,17 @@ class BruteForce : public Technique {
         stats_.build_ms.push_back(0.0);
     }
 
-    std::vector<PixelRecord> record(const Frame& frame) override { return pass_.record(frame, lights_.value(), {}); }
+    std::vector<PixelRecord> record(const Frame& frame) override {
+        return pass_.record(frame, lights_.value(), one_band(frame, {}));
+    }
 
     std::vector<float> shade(const Frame& frame) override {
-        return pass_.shade(frame, lights_.value(), {}, stats_.shade_ms);
+        return pass_.shade(frame, lights_.value(), one_band(frame, {}), stats_.shade_ms);
+    }
+
+    // The union of what a wave's lanes test is all lights by definition, so the log is spared them.
+    WaveSummary waves(const Frame& frame) override {
+        return pass_.waves(frame, lights_.value(), one_band(frame, {}), frame.lights.size());
     }
 
     std::vector<CellClass> classify(const Frame&) override { return {}; }

@@ -1,5 +1,6 @@
 // Brute force: every point tests every light of the dispatch. The lights stream through shared memory in chunks, four
-// loads per thread; every thread takes part in every barrier, also where its pixel is sky or outside the image.
+// loads per thread; every thread takes part in every barrier, also where its pixel is sky or outside the image. No test
+// is logged: every shaded lane tests all lights, so their union is known (brute_force.cpp).
 #include "lab/techniques/shading_pass.glsl"
 
 const uint kChunk = 256u; // kLightChunk of shading_pass.cpp

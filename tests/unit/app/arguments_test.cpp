@@ -99,6 +99,22 @@ TEST(Arguments, verify_takes_all_techniques_or_a_list) {
         {"verify", "--techniques", "clustered,hybrid_light_trees", "--remove-one-light", "clustered"}));
     EXPECT_EQ(two.techniques, (std::vector<std::string>{"clustered", "hybrid_light_trees"}));
     EXPECT_EQ(two.remove_one_light, "clustered");
+    EXPECT_TRUE(all.all_techniques);
+    EXPECT_FALSE(two.all_techniques);
+    EXPECT_TRUE(std::get<VerifyArguments>(parse_command_line({"verify", "--techniques", "all"})).all_techniques);
+}
+
+TEST(Arguments, verify_takes_a_truth) {
+    const auto truth_of = [](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = {"verify"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return std::get<VerifyArguments>(parse_command_line(arguments)).truth;
+    };
+    EXPECT_EQ(truth_of({}), TruthKind::automatic);
+    EXPECT_EQ(truth_of({"--truth", "auto"}), TruthKind::automatic);
+    EXPECT_EQ(truth_of({"--truth", "brute_force"}), TruthKind::brute_force);
+    EXPECT_EQ(truth_of({"--truth", "grid", "--remove-one-light", "grid"}), TruthKind::grid);
+    EXPECT_EQ(refusal({"verify", "--truth", "exact"}), "--truth 'exact': must be one of auto, brute_force, grid");
 }
 
 TEST(Arguments, the_last_of_a_repeated_option_counts) {

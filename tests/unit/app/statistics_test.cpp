@@ -22,15 +22,17 @@ Measurement some_measurement() {
     return m;
 }
 
-nlohmann::ordered_json some_row() {
+nlohmann::ordered_json row_of(const Measurement& measurement) {
     Selectors selectors;
     selectors.width = 64;
     selectors.height = 36;
     gpu::DeviceInfo device;
     device.name = "card";
     device.version = "driver 1";
-    return statistics_row(selectors, "street", device, some_measurement());
+    return statistics_row(selectors, "street", device, measurement);
 }
+
+nlohmann::ordered_json some_row() { return row_of(some_measurement()); }
 
 TEST(Statistics, keys_are_those_of_the_shared_schema) {
     std::vector<std::string> keys;
@@ -54,6 +56,16 @@ TEST(Statistics, times_are_minimum_median_maximum_and_null_where_not_measured) {
     EXPECT_EQ(row["options"].dump(), R"({"tile_size":"32"})");
     EXPECT_EQ(row["light_set_hash"], "0000000000000abc");
     EXPECT_EQ(row["camera"], "street");
+}
+
+TEST(Statistics, wave_costs_are_means_with_the_default_weights) {
+    Measurement m = some_measurement();
+    m.waves.emplace();
+    m.waves->lanes_64 = {2, 60, 10, 8, 4, 0};
+    m.waves->lanes_32 = {4, 80, 10, 8, 0, 2};
+    const nlohmann::ordered_json row = row_of(m);
+    EXPECT_EQ(row["wave_cost_64"], 30.0 + 2.0 + 0.5);
+    EXPECT_EQ(row["wave_cost_32"], 20.0 + 1.0 + 1.5);
 }
 
 TEST(Statistics, one_row_is_an_object_and_several_are_an_array) {
