@@ -1,5 +1,8 @@
 #include "lab/app/arguments.h"
 
+#include "lab/app/bench_arguments.h"
+#include "lab/app/option_values.h"
+#include "lab/app/technique_arguments.h"
 #include "lab/scene/error.h"
 
 #include <CLI/CLI.hpp>
@@ -7,8 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 
 namespace manylights::lab::app {
 namespace {
@@ -27,39 +28,6 @@ struct Typed {
     std::string list;
 };
 
-[[noreturn]] void refuse(const std::string& option, const std::string& value, const std::string& rule) {
-    throw InputError(fmt::format("{} '{}': must be {}", option, value, rule));
-}
-
-std::uint32_t whole_number(const std::string& option, const std::string& text, std::uint32_t least,
-                           std::uint32_t most) {
-    std::uint32_t value = 0;
-    const char* const end = text.data() + text.size();
-    const auto [stopped, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc{} || stopped != end || value < least || value > most)
-        refuse(option, text, fmt::format("a whole number from {} to {}", least, most));
-    return value;
-}
-
-template <std::size_t N>
-std::size_t choice(const std::string& option, const std::string& text, const std::array<const char*, N>& choices) {
-    const auto found = std::find(choices.begin(), choices.end(), text);
-    if (found == choices.end()) refuse(option, text, fmt::format("one of {}", fmt::join(choices, ", ")));
-    return static_cast<std::size_t>(found - choices.begin());
-}
-
-void read_size(const std::string& text, Selectors& selectors) {
-    const std::size_t cross = text.find('x');
-    const std::string rule = fmt::format("WIDTHxHEIGHT, each from 1 to {}", kLargestSide);
-    if (cross == std::string::npos) refuse("--size", text, rule);
-    try {
-        selectors.width = whole_number("--size", text.substr(0, cross), 1, kLargestSide);
-        selectors.height = whole_number("--size", text.substr(cross + 1), 1, kLargestSide);
-    } catch (const InputError&) {
-        refuse("--size", text, rule);
-    }
-}
-
 void read_settings(const std::vector<std::string>& texts, OptionValues& settings) {
     for (const std::string& text : texts) {
         const std::size_t equals = text.find('=');
@@ -73,66 +41,16 @@ void check_kinds(const std::string& text) {
     if (text != "point") refuse("--kinds", text, "point: this version shades point lights, and no spots or boxes");
 }
 
-double positive_number(const std::string& option, const std::string& text) {
-    double value = 0.0;
-    const char* const end = text.data() + text.size();
-    const auto [stopped, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc{} || stopped != end || !std::isfinite(value) || !(value > 0.0))
-        refuse(option, text, "a number above 0");
-    return value;
-}
-
 void read_selectors(const Typed& typed, Selectors& selectors) {
     selectors.lights.count = whole_number("--lights", typed.lights, 0, kMostLights);
     selectors.lights.seed = whole_number("--seed", typed.seed, 0, 0xFFFFFFFFu);
     selectors.detail = choice("--detail", typed.detail, kDetailNames) == 0 ? Detail::low : Detail::full;
     check_kinds(typed.kinds);
-    read_size(typed.size, selectors);
+    const ImageSize size = image_size("--size", typed.size);
+    selectors.width = size.width;
+    selectors.height = size.height;
     selectors.size_given = typed.size_option->count() > 0;
     read_settings(typed.settings, selectors.settings);
-}
-
-std::string joined(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
-
-std::vector<std::string> technique_names() {
-    std::vector<std::string> names;
-    for (const TechniqueInfo& info : technique_infos()) names.push_back(info.name);
-    return names;
-}
-
-void check_technique(const std::string& option, const std::string& name, const std::vector<std::string>& known) {
-    if (std::find(known.begin(), known.end(), name) == known.end())
-        throw InputError(fmt::format("{} '{}': unknown technique; there are {}", option, name, joined(known)));
-}
-
-// "all" stands for every technique, brute force included.
-std::vector<std::string> read_techniques(const std::vector<std::string>& given) {
-    const std::vector<std::string> known = technique_names();
-    if (given == std::vector<std::string>{"all"}) return known;
-    for (auto name = given.begin(); name != given.end(); ++name) {
-        check_technique("--techniques", *name, known);
-        if (std::find(given.begin(), name, *name) != name)
-            throw InputError(fmt::format("--techniques '{}': is given twice", *name));
-    }
-    return given;
-}
-
-// A key is for those of the techniques that have it; one that none of them has is a mistake.
-void check_setting_keys(const Selectors& selectors, const std::vector<std::string>& techniques) {
-    for (const auto& [key, value] : selectors.settings) {
-        bool known = false;
-        std::vector<std::string> keys;
-        for (const TechniqueInfo& info : technique_infos()) {
-            if (std::find(techniques.begin(), techniques.end(), info.name) == techniques.end()) continue;
-            for (const OptionInfo& option : info.options) {
-                known = known || option.key == key;
-                if (std::find(keys.begin(), keys.end(), option.key) == keys.end()) keys.push_back(option.key);
-            }
-        }
-        if (!known)
-            throw InputError(fmt::format("--set '{}={}': unknown option of {}; {}", key, value, joined(techniques),
-                                         keys.empty() ? "it has none" : "there are " + joined(keys)));
-    }
 }
 
 void add_selectors(CLI::App& app, Selectors& selectors, Typed& typed) {
@@ -188,7 +106,7 @@ RenderArguments finish_render(RenderArguments render, const Typed& typed, const 
     } else {
         render.techniques = read_techniques(typed.techniques);
     }
-    check_setting_keys(render.selectors, render.techniques);
+    check_setting_keys(render.selectors.settings, render.techniques);
     check_render_paths(render);
     return render;
 }
@@ -198,7 +116,7 @@ VerifyArguments finish_verify(VerifyArguments verify, const Typed& typed) {
     const std::vector<std::string> all = {"all"};
     verify.all_techniques = typed.techniques.empty() || typed.techniques == all;
     verify.techniques = read_techniques(verify.all_techniques ? all : typed.techniques);
-    check_setting_keys(verify.selectors, verify.techniques);
+    check_setting_keys(verify.selectors.settings, verify.techniques);
     verify.truth = static_cast<TruthKind>(choice("--truth", typed.truth, kTruthNames));
     if (verify.remove_one_light.empty() || verify.remove_one_light == kGrid) return verify;
     check_technique("--remove-one-light", verify.remove_one_light, verify.techniques);
@@ -259,9 +177,13 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
     CLI::App* render_app = app.add_subcommand("render", "draw a picture of a scene, or of the work it took");
     CLI::App* verify_app =
         app.add_subcommand("verify", "prove that no technique loses a light, against brute force or an oracle");
+    CLI::App* bench_app =
+        app.add_subcommand("bench", "measure a suite of cases: work counts, bytes, times that compare");
     CLI::App* list_app = app.add_subcommand("list", "what there is: scenes, techniques, suites or devices");
     add_render(*render_app, render, render_typed, technique);
     add_verify(*verify_app, verify, verify_typed);
+    BenchOptions bench;
+    add_bench(*bench_app, bench);
     list_app->add_option("what", list_typed.list, "scenes, techniques, suites or devices")->required();
 
     try {
@@ -275,6 +197,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
     }
     if (render_app->parsed()) return finish_render(render, render_typed, technique);
     if (verify_app->parsed()) return finish_verify(verify, verify_typed);
+    if (bench_app->parsed()) return finish_bench(bench);
     return ListArguments{static_cast<ListKind>(choice("list", list_typed.list, kListNames))};
 }
 

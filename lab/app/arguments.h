@@ -4,6 +4,7 @@
 
 #include "lab/scene/lights.h"
 #include "lab/scene/scene.h"
+#include "lab/suites/suite.h"
 #include "lab/techniques/technique.h"
 
 #include <optional>
@@ -12,9 +13,6 @@
 #include <vector>
 
 namespace manylights::lab::app {
-
-constexpr std::uint32_t kMostLights = 1u << 24;
-constexpr std::uint32_t kLargestSide = 8192; ///< of an image, pixels
 
 constexpr const char* kGrid = "grid"; ///< the grid oracle where a technique could be named
 
@@ -57,6 +55,16 @@ struct VerifyArguments {
     std::string remove_one_light; ///< technique to damage on purpose, or kGrid; empty: none
 };
 
+struct BenchArguments {
+    std::string suite;
+    suites::SuiteOptions options;
+    std::string out; ///< folder
+    bool resume = false;
+    std::string device; ///< empty: the best one
+    bool validation = false;
+    std::string remove_one_light; ///< technique to damage on purpose; empty: none
+};
+
 enum class ListKind { scenes, techniques, suites, devices };
 struct ListArguments {
     ListKind what;
@@ -67,7 +75,7 @@ struct Information {
     std::string text;
 };
 
-using Command = std::variant<RenderArguments, VerifyArguments, ListArguments, Information>;
+using Command = std::variant<RenderArguments, VerifyArguments, BenchArguments, ListArguments, Information>;
 
 /// arguments without the program's name. Throws InputError: the option, what was given, and the rule.
 Command parse_command_line(const std::vector<std::string>& arguments);

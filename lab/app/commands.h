@@ -10,6 +10,7 @@ constexpr int kDone = 0, kCheckFailed = 1, kBadInput = 2, kNoDevice = 3;
 
 int run_render(const RenderArguments& arguments);
 int run_verify(const VerifyArguments& arguments);
+int run_bench(const BenchArguments& arguments);
 int run_list(const ListArguments& arguments);
 
 } // namespace manylights::lab::app

@@ -2,6 +2,7 @@
 #include "lab/app/text_table.h"
 #include "lab/gpu/device.h"
 #include "lab/scene/error.h"
+#include "lab/suites/suite.h"
 
 #include <fmt/format.h>
 
@@ -28,6 +29,12 @@ std::string technique_lines() {
     return techniques.str(false);
 }
 
+std::string suite_lines() {
+    TextTable table = name_and_summary();
+    for (const suites::Suite& suite : suites::suites()) table.add({suite.name, suite.summary});
+    return table.str(false);
+}
+
 std::string device_lines() {
     TextTable table({{"index", Align::right}, {"name", Align::left}, {"driver", Align::left}, {"kind", Align::left}});
     const std::vector<gpu::DeviceInfo> devices = gpu::list_devices();
@@ -50,7 +57,7 @@ int run_list(const ListArguments& arguments) {
         fmt::print("{}", technique_lines());
         break;
     case ListKind::suites:
-        fmt::print(stderr, "manylights: this version has no suites\n");
+        fmt::print("{}", suite_lines());
         break;
     case ListKind::devices:
         fmt::print("{}", device_lines());

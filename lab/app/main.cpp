@@ -14,6 +14,7 @@ using namespace manylights::lab;
 int run(const app::Command& command) {
     if (const auto* render = std::get_if<app::RenderArguments>(&command)) return app::run_render(*render);
     if (const auto* verify = std::get_if<app::VerifyArguments>(&command)) return app::run_verify(*verify);
+    if (const auto* bench = std::get_if<app::BenchArguments>(&command)) return app::run_bench(*bench);
     if (const auto* list = std::get_if<app::ListArguments>(&command)) return app::run_list(*list);
     fmt::print("{}", std::get<app::Information>(command).text);
     return app::kDone;

@@ -2,12 +2,13 @@
 #include "lab/app/figure.h"
 #include "lab/app/number_scale.h"
 #include "lab/app/progress.h"
-#include "lab/app/statistics.h"
+#include "lab/app/statistics_file.h"
 #include "lab/app/validation_report.h"
 #include "lab/app/work_table.h"
 #include "lab/app/workbench.h"
 #include "lab/renderer/image_file.h"
 #include "lab/renderer/tone_map.h"
+#include "lab/renderer/unfinished_file.h"
 #include "lab/scene/error.h"
 #include "lab/techniques/verification.h"
 
@@ -21,7 +22,7 @@ namespace {
 
 /// What one technique made of the frame, as far as the view needs it.
 struct Panel {
-    Measurement measurement;
+    suites::Measurement measurement;
     std::vector<float> radiance;    ///< linear RGB per pixel
     std::vector<float> values;      ///< of a false-colour view, per pixel; -1: sky
     std::vector<CellClass> classes; ///< of the structure view
@@ -220,7 +221,7 @@ void check_paths(const RenderArguments& arguments) {
     check_writable(arguments.out);
     if (!arguments.panels.empty())
         for (const std::string& name : arguments.techniques) check_writable(panel_path(arguments, name));
-    if (!arguments.stats.empty()) check_statistics_path(arguments.stats);
+    if (!arguments.stats.empty()) check_writable(arguments.stats);
 }
 
 void write_pictures(const std::vector<Panel>& panels, const Workbench& bench, const RenderArguments& arguments) {
@@ -234,17 +235,16 @@ void write_pictures(const std::vector<Panel>& panels, const Workbench& bench, co
 
 void print_work(const std::vector<Panel>& panels, const Workbench& bench, const RenderArguments& arguments) {
     if (!measures_work(arguments)) return;
-    std::vector<Measurement> measurements;
+    std::vector<suites::Measurement> measurements;
     for (const Panel& panel : panels) measurements.push_back(panel.measurement);
     fmt::print("{}\n{}", bench.description(), work_table(measurements, {}));
 }
 
 void write_rows(const std::vector<Panel>& panels, Workbench& bench, const RenderArguments& arguments) {
     if (arguments.stats.empty()) return;
-    std::vector<nlohmann::ordered_json> rows;
+    std::vector<suites::Row> rows;
     for (const Panel& panel : panels)
-        rows.push_back(
-            statistics_row(bench.selectors(), bench.camera_name(), bench.device().info(), panel.measurement));
+        rows.push_back(make_row(bench.row_view(), bench.device().info(), panel.measurement));
     write_statistics(arguments.stats, rows);
 }
 

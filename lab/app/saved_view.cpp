@@ -1,5 +1,6 @@
 #include "lab/app/saved_view.h"
 
+#include "lab/app/option_values.h"
 #include "lab/renderer/point_file.h"
 #include "lab/renderer/renderer.h"
 #include "lab/renderer/scene_buffers.h"

@@ -1,11 +1,12 @@
 #include "lab/app/commands.h"
 #include "lab/app/image_check.h"
 #include "lab/app/progress.h"
-#include "lab/app/statistics.h"
+#include "lab/app/statistics_file.h"
 #include "lab/app/validation_report.h"
 #include "lab/app/verify_truth.h"
 #include "lab/app/work_table.h"
 #include "lab/app/workbench.h"
+#include "lab/renderer/unfinished_file.h"
 #include "lab/scene/error.h"
 #include "lab/techniques/light_stream.h"
 #include "lab/techniques/verification.h"
@@ -19,7 +20,7 @@ namespace manylights::lab::app {
 namespace {
 
 struct Verdict {
-    Measurement measurement;
+    suites::Measurement measurement;
     VerifyResult result;
     std::string image; ///< what is wrong with the shaded image; empty: nothing
     bool right() const { return result.exact() && image.empty(); }
@@ -39,14 +40,15 @@ Verdict judge(Workbench& bench, Technique& technique, const std::vector<PixelRec
     Verdict verdict;
     verdict.result = compare(truth.records, records, frame.width);
     verdict.image = image_difference(truth.radiance, radiance, truth.mask, frame.width, frame.height);
-    verdict.measurement = {name,
-                           bench.options_for(name),
-                           summarize(records),
-                           technique.stats(),
-                           light_set_hash(records),
-                           verdict.result.missing_points,
-                           std::nullopt};
-    if (!arguments.stats.empty()) verdict.measurement.waves = technique.waves(frame);
+    suites::Measurement& m = verdict.measurement;
+    m.technique = name;
+    m.options = bench.options_for(name);
+    m.work = summarize(records);
+    m.stats = technique.stats();
+    m.light_set_hash = light_set_hash(records);
+    m.missing_points = verdict.result.missing_points;
+    m.wrong = !verdict.result.exact();
+    if (!arguments.stats.empty()) m.waves = technique.waves(frame);
     return verdict;
 }
 
@@ -68,7 +70,7 @@ std::string verdict_text(const Verdict& verdict) {
 }
 
 std::string table_of(const std::vector<Verdict>& verdicts) {
-    std::vector<Measurement> measurements;
+    std::vector<suites::Measurement> measurements;
     std::vector<std::string> texts;
     for (const Verdict& verdict : verdicts) {
         measurements.push_back(verdict.measurement);
@@ -98,10 +100,9 @@ std::string failure(const Verdict& verdict, const Truth& truth, const Workbench&
 
 void write_rows(const std::vector<Verdict>& verdicts, Workbench& bench, const VerifyArguments& arguments) {
     if (arguments.stats.empty()) return;
-    std::vector<nlohmann::ordered_json> rows;
+    std::vector<suites::Row> rows;
     for (const Verdict& verdict : verdicts)
-        rows.push_back(
-            statistics_row(bench.selectors(), bench.camera_name(), bench.device().info(), verdict.measurement));
+        rows.push_back(make_row(bench.row_view(), bench.device().info(), verdict.measurement));
     write_statistics(arguments.stats, rows);
 }
 
@@ -126,7 +127,7 @@ int report(const std::vector<Verdict>& verdicts, const Truth& truth, const Workb
 } // namespace
 
 int run_verify(const VerifyArguments& arguments) {
-    if (!arguments.stats.empty()) check_statistics_path(arguments.stats);
+    if (!arguments.stats.empty()) check_writable(arguments.stats);
     Workbench bench(arguments.selectors);
     Progress progress;
     const Truth truth = find_truth(bench, arguments, progress);

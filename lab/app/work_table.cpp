@@ -14,7 +14,7 @@ std::string options_text(const OptionValues& options) {
     return text.empty() ? "defaults" : text;
 }
 
-std::vector<std::string> figures(const Measurement& m) {
+std::vector<std::string> figures(const suites::Measurement& m) {
     return {m.technique,
             options_text(m.options),
             with_separators(m.work.shaded),
@@ -24,12 +24,12 @@ std::vector<std::string> figures(const Measurement& m) {
             fmt::format("{:.2f}", m.work.affecting_mean),
             with_separators(m.stats.references),
             fmt::format("{:.1f}", static_cast<double>(m.stats.structure_bytes) / 1024.0),
-            m.stats.build_ms.empty() ? "-" : fmt::format("{:.2f}", median(m.stats.build_ms))};
+            m.stats.build_ms.empty() ? "-" : fmt::format("{:.2f}", suites::median(m.stats.build_ms))};
 }
 
 } // namespace
 
-std::string work_table(const std::vector<Measurement>& measurements, const std::vector<std::string>& verdicts) {
+std::string work_table(const std::vector<suites::Measurement>& measurements, const std::vector<std::string>& verdicts) {
     using enum Align;
     std::vector<TextTable::Column> columns = {{"technique", left},       {"options", left},     {"points", right},
                                               {"visible lights", right}, {"tested/px", right},  {"p95", right},

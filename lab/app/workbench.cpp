@@ -53,6 +53,10 @@ std::string Workbench::description() const {
 
 std::string Workbench::camera_name() const { return selectors_.camera.empty() ? camera_.name : selectors_.camera; }
 
+suites::RowView Workbench::row_view() const {
+    return {selectors_.scene, selectors_.lights, camera_name(), selectors_.width, selectors_.height};
+}
+
 std::vector<std::uint8_t> Workbench::shaded_mask() const {
     std::vector<std::uint8_t> mask;
     for (const PointPosition& point : points_.download_positions()) mask.push_back(point.depth > 0.0f ? 1 : 0);
@@ -73,10 +77,8 @@ OptionValues Workbench::options_for(const std::string& technique) const {
 
 std::unique_ptr<Technique> Workbench::make_prepared(const std::string& name, int builds) {
     std::unique_ptr<Technique> technique = make_technique(device_, name, options_for(name));
-    for (int build = 0; build < builds; ++build) {
-        technique->prepare(frame_);
-        if (technique->stats().build_ms.empty()) break; // nothing is timed
-    }
+    technique->prepare(frame_);
+    for (int build = 1; build < builds; ++build) technique->rebuild(frame_);
     return technique;
 }
 

@@ -5,6 +5,7 @@
 #include "lab/gpu/device.h"
 #include "lab/renderer/point_buffer.h"
 #include "lab/renderer/saved_points.h"
+#include "lab/suites/row.h"
 
 namespace manylights::lab::app {
 
@@ -30,7 +31,8 @@ class Workbench {
     const Selectors& selectors() const { return selectors_; }
     /// Scene, lights, camera, size, where the points come from if not from here, and device, in one line.
     std::string description() const;
-    std::string camera_name() const;               ///< as selected; the scene's default camera by its own name
+    std::string camera_name() const; ///< as selected; the scene's default camera by its own name
+    suites::RowView row_view() const;
     std::vector<std::uint8_t> shaded_mask() const; ///< 1 per pixel with a surface
 
     /// The options among the given ones that the technique has.

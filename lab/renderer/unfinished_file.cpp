@@ -25,8 +25,13 @@ void check_writable(const std::string& path) {
     if (!fs::exists(status)) cannot_write(path, "the folder " + folder.string() + " does not exist");
     if (!fs::is_directory(status)) cannot_write(path, folder.string() + " is not a folder");
     if (fs::is_directory(file, error)) cannot_write(path, "it is a folder");
-    if (access(folder.c_str(), W_OK | X_OK) != 0)
+    // Permissions do not tell everything: a file system may refuse files of any user.
+    const std::string probe = path + ".probe-" + std::to_string(getpid());
+    std::FILE* opened = std::fopen(probe.c_str(), "wb");
+    if (opened == nullptr)
         cannot_write(path, "the folder " + folder.string() + " is not writable: " + std::strerror(errno));
+    std::fclose(opened);
+    fs::remove(probe, error);
 }
 
 UnfinishedFile::UnfinishedFile(std::string path)
@@ -53,6 +58,12 @@ void UnfinishedFile::keep() {
     fs::rename(name_, path_, error);
     if (error) cannot_write(path_, error.message());
     kept_ = true;
+}
+
+void write_text(const std::string& path, std::string_view text) {
+    UnfinishedFile file(path);
+    file.write({text.begin(), text.end()});
+    file.keep();
 }
 
 } // namespace manylights::lab

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace manylights::lab {
@@ -32,5 +33,8 @@ class UnfinishedFile {
     std::string path_, name_;
     bool kept_ = false;
 };
+
+/// The whole file at once.
+void write_text(const std::string& path, std::string_view text);
 
 } // namespace manylights::lab

@@ -35,6 +35,7 @@ paper::Options paper_options(const StructureOptions& options, const SliceRange& 
     result.slice_formula = options.slice_formula;
     result.heuristic = options.heuristic;
     result.sort_key = options.sort_key;
+    result.time_stages = true;
     return result;
 }
 
@@ -70,6 +71,12 @@ class PaperProducer : public Producer {
     }
 
     ProducerStats stats() const override { return {built_->visible_lights, built_->references.size()}; }
+
+    std::vector<StageTime> stages() const override {
+        const paper::StageTimes& times = built_->times;
+        return {{"cull", times.cull}, {"sort", times.sort}, {"bounds", times.bounds},
+                {"bin", times.bin},   {"tree", times.tree}, {"pack", times.pack}};
+    }
 
   private:
     StructureOptions options_;

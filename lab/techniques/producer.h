@@ -12,6 +12,12 @@ struct ProducerStats {
     std::uint64_t references = 0;
 };
 
+/// One stage of a build.
+struct StageTime {
+    std::string name;
+    double ms = 0;
+};
+
 class Producer {
   public:
     virtual ~Producer() = default;
@@ -20,6 +26,8 @@ class Producer {
     /// Fills the buffers, which may be mapped device memory.
     virtual void write(const ManylightsBuffers& buffers) = 0;
     virtual ProducerStats stats() const = 0;
+    /// The parts of the last plan, in the order of the work; empty where the producer does not tell.
+    virtual std::vector<StageTime> stages() const { return {}; }
 };
 
 std::unique_ptr<Producer> make_library_producer(const StructureOptions& options);

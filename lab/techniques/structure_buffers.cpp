@@ -21,6 +21,8 @@ std::array<std::uint64_t, 5> size_list(const ManylightsSizes& sizes) {
 
 void StructureBuffers::reserve(const ManylightsSizes& sizes) {
     const std::array<std::uint64_t, 5> bytes = size_list(sizes);
+    if (!mapped_.empty() && bytes == sizes_) return;
+    sizes_ = bytes;
     bytes_ = std::accumulate(bytes.begin(), bytes.end(), std::uint64_t{0});
     mapped_.clear();
     local_.clear();

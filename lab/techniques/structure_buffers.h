@@ -14,8 +14,8 @@ class StructureBuffers {
   public:
     explicit StructureBuffers(gpu::Device& device) : device_(device) {}
 
-    /// Makes the buffers large enough and fills them with a pattern that no structure has, so that a byte which the
-    /// producer forgets is noticed.
+    /// Makes buffers of these sizes, filled with a pattern that no structure has, so that a byte which the producer
+    /// forgets is noticed. Buffers that have these sizes already stay as they are: a repeated build has warm memory.
     void reserve(const ManylightsSizes& sizes);
     ManylightsBuffers targets() const; ///< where the producer writes
     void finish();                     ///< hands what was written to the device
@@ -34,6 +34,7 @@ class StructureBuffers {
     std::vector<gpu::Buffer> mapped_;
     std::vector<gpu::Buffer> local_; ///< copies in the device's own memory; empty on a software device
     std::array<const gpu::Buffer*, 5> bindings_{};
+    std::array<std::uint64_t, 5> sizes_{};
     std::uint64_t bytes_ = 0;
 };
 

@@ -45,21 +45,36 @@ StructureTechnique::StructureTechnique(gpu::Device& device, TechniqueInfo info, 
     : device_(device), info_(std::move(info)), producer_(make_producer(read_structure_options(info_, kind, values))),
       buffers_(device), pass_(device, {info_.name, kRecordCode, kShadeCode, kLogCode, 5}, LightSplit::none) {}
 
-// The time is the producer's alone: the lab's own allocation and its patterns are left out.
 void StructureTechnique::prepare(const Frame& frame) {
     lights_.emplace(device_, frame);
-    ManylightsSizes sizes{};
-    double build_ms = milliseconds_of([&] { sizes = producer_->plan(frame); });
-    buffers_.reserve(sizes);
-    build_ms += milliseconds_of([&] {
-        producer_->write(buffers_.targets());
-        buffers_.finish();
-    });
+    stats_ = {};
+    rebuild(frame);
     const ProducerStats built = producer_->stats();
     stats_.visible_lights = built.visible_lights;
     stats_.references = built.references;
     stats_.structure_bytes = buffers_.bytes();
-    stats_.build_ms.push_back(build_ms);
+}
+
+// The time is the producer's alone: the lab's own allocation and its patterns are left out.
+void StructureTechnique::rebuild(const Frame& frame) {
+    ManylightsSizes sizes{};
+    const double plan_ms = milliseconds_of([&] { sizes = producer_->plan(frame); });
+    buffers_.reserve(sizes);
+    const double write_ms = milliseconds_of([&] { producer_->write(buffers_.targets()); });
+    buffers_.finish();
+    add_times(plan_ms, write_ms);
+}
+
+void StructureTechnique::add_times(double plan_ms, double write_ms) {
+    stats_.build_ms.push_back(plan_ms + write_ms);
+    std::vector<StageTime> stages = producer_->stages();
+    if (stages.empty()) stages.push_back({"plan", plan_ms});
+    stages.push_back({"write", write_ms});
+    stats_.stages.resize(stages.size());
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+        stats_.stages[i].name = stages[i].name;
+        stats_.stages[i].ms.push_back(stages[i].ms);
+    }
 }
 
 std::vector<PixelRecord> StructureTechnique::record(const Frame& frame) {

@@ -15,21 +15,22 @@ class StructureTechnique : public Technique {
 
     const TechniqueInfo& info() const override { return info_; }
     void prepare(const Frame& frame) override;
+    void rebuild(const Frame& frame) override;
     std::vector<PixelRecord> record(const Frame& frame) override;
     std::vector<float> shade(const Frame& frame) override;
     WaveSummary waves(const Frame& frame) override;
     std::vector<CellClass> classify(const Frame& frame) override;
-    const TechniqueStats& stats() const override { return stats_; }
     bool remove_one_reference(const Frame& frame) override;
 
   private:
+    void add_times(double plan_ms, double write_ms);
+
     gpu::Device& device_;
     TechniqueInfo info_;
     std::unique_ptr<Producer> producer_;
     StructureBuffers buffers_;
     std::optional<FrameLights> lights_;
     ShadingPass pass_;
-    TechniqueStats stats_;
 };
 
 /// What the infos of the three have in common: no depth needed, every kind of surface served.

@@ -18,8 +18,8 @@ namespace gpu {
 class Device;
 class Buffer;
 } // namespace gpu
+struct PointLists; // lab/techniques/point_lists.h: the lights of each point
 class PointBuffer; // lab/renderer/point_buffer.h: what is shaded
-struct PointLists; // point_lists.h
 
 /// What shading one pixel found. The sums of hashes identify the set of affecting lights whatever the order was; the
 /// `front` set holds those with N.L > 0. Radiance is fixed point, 2^-20, so its sum does not depend on the order
@@ -55,8 +55,14 @@ struct Frame {
     std::uint32_t width, height;
     std::span<const Light> lights;
     const PointBuffer& points; ///< on the device
-    const PointLists* lists =
-        nullptr; ///< of its points where the caller has them already; exact finds its own otherwise
+    /// Of its points, where the caller has them already; `exact` finds its own otherwise.
+    const PointLists* lists = nullptr;
+};
+
+/// A part of the work by its name, and what it took in each repeat.
+struct NamedTimes {
+    std::string name;
+    std::vector<double> ms;
 };
 
 struct TechniqueStats {
@@ -65,6 +71,7 @@ struct TechniqueStats {
     std::uint64_t structure_bytes = 0;
     std::vector<double> build_ms; ///< of each repeat; empty where there is no build that a frame could pay
     std::vector<double> shade_ms;
+    std::vector<NamedTimes> stages; ///< of each build: CPU time by stage
 };
 
 /// How pixels of an image map to what kind of cell served them (figure 3 of Tiled Light Trees).
@@ -75,8 +82,13 @@ class Technique {
     virtual ~Technique() = default;
     virtual const TechniqueInfo& info() const = 0;
 
-    /// Builds the frame's structures and makes them ready on the device. May be called again with another frame.
+    /// Builds the frame's structures and makes them ready on the device. May be called again with another frame, which
+    /// starts the times anew.
     virtual void prepare(const Frame& frame) = 0;
+
+    /// Builds the frame of the last prepare once more, into the memory that is there: what a renderer pays every frame.
+    /// Adds to build_ms.
+    virtual void rebuild(const Frame& frame) = 0;
 
     /// Shades every point and hands back a record per pixel, row by row. Counters are always filled here.
     virtual std::vector<PixelRecord> record(const Frame& frame) = 0;
@@ -90,11 +102,16 @@ class Technique {
     /// Per pixel of the image: which kind of cell a tile's pixels walk. Empty where the technique has no cells.
     virtual std::vector<CellClass> classify(const Frame& frame) = 0;
 
-    virtual const TechniqueStats& stats() const = 0;
-
     /// Test hook: takes one light that affects a point of this frame out of one cell of the built structure, so that a
     /// test can watch the proof fail. False where the technique cannot.
     virtual bool remove_one_reference(const Frame& frame) = 0;
+
+    const TechniqueStats& stats() const { return stats_; }
+    /// Drops the times so far, not the counts.
+    void forget_times();
+
+  protected:
+    TechniqueStats stats_;
 };
 
 std::vector<TechniqueInfo> technique_infos();

@@ -25,9 +25,10 @@ std::uint64_t mix(std::uint64_t word) {
 
 std::uint64_t pair_of(std::uint32_t high, std::uint32_t low) { return std::uint64_t{high} << 32 | low; }
 
-} // namespace
+enum class Radiance { counts, does_not_count };
 
-VerifyResult compare(const std::vector<PixelRecord>& truth, const std::vector<PixelRecord>& got, std::uint32_t width) {
+VerifyResult compare_pixels(const std::vector<PixelRecord>& truth, const std::vector<PixelRecord>& got,
+                            std::uint32_t width, Radiance radiance) {
     if (truth.size() != got.size() || width == 0 || truth.size() % width != 0)
         throw std::invalid_argument("compare: records of images of different sizes");
     VerifyResult result;
@@ -35,7 +36,7 @@ VerifyResult compare(const std::vector<PixelRecord>& truth, const std::vector<Pi
     for (std::size_t i = 0; i < truth.size(); ++i) {
         result.shaded += truth[i].shaded != 0;
         const bool sets_agree = same_light_sets(truth[i], got[i]);
-        const bool radiance_agrees = same_radiance(truth[i], got[i]);
+        const bool radiance_agrees = radiance == Radiance::does_not_count || same_radiance(truth[i], got[i]);
         if (sets_agree && radiance_agrees && truth[i].shaded == got[i].shaded) continue;
         ++result.wrong_pixels;
         result.missing_points += !sets_agree && got[i].affecting <= truth[i].affecting;
@@ -48,6 +49,17 @@ VerifyResult compare(const std::vector<PixelRecord>& truth, const std::vector<Pi
         result.first_got = got[i];
     }
     return result;
+}
+
+} // namespace
+
+VerifyResult compare(const std::vector<PixelRecord>& truth, const std::vector<PixelRecord>& got, std::uint32_t width) {
+    return compare_pixels(truth, got, width, Radiance::counts);
+}
+
+VerifyResult compare_light_sets(const std::vector<PixelRecord>& truth, const std::vector<PixelRecord>& got,
+                                std::uint32_t width) {
+    return compare_pixels(truth, got, width, Radiance::does_not_count);
 }
 
 std::vector<std::uint32_t> missing_lights(const PixelRecord& truth, const PixelRecord& got,

@@ -25,6 +25,10 @@ struct VerifyResult {
 /// which is a mistake of the caller.
 VerifyResult compare(const std::vector<PixelRecord>& truth, const std::vector<PixelRecord>& got, std::uint32_t width);
 
+/// The same without the radiance: for a truth that knows none.
+VerifyResult compare_light_sets(const std::vector<PixelRecord>& truth, const std::vector<PixelRecord>& got,
+                                std::uint32_t width);
+
 /// Which lights the technique lost at a pixel: those of the affecting lights (light_stream.h) whose hashes explain the
 /// difference of the two records. One or two lost lights are found; empty where there are more, or none.
 std::vector<std::uint32_t> missing_lights(const PixelRecord& truth, const PixelRecord& got,

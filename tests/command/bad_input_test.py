@@ -63,7 +63,7 @@ class Values(CommandTest):
 
     def test_output_folder_does_not_exist(self):
         self.refuse(["--out", "none/a.png"], r"none/a\.png")
-        self.refuse(["--stats", "none/a.json"], r"none/a\.json.*No such file or directory")
+        self.refuse(["--stats", "none/a.json"], r"none/a\.json.*does not exist")
 
     def test_output_cannot_be_written(self):
         self.refuse(["--out", "/proc/a.png"], r"/proc/a\.png")

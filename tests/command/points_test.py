@@ -32,8 +32,7 @@ class Points(CommandTest):
 
     def rows(self, name):
         row = json.loads(self.read(name))
-        del row["build_ms"], row["shade_ms"]
-        return row
+        return {key: value for key, value in row.items() if not key.endswith("_ms")}
 
     def refuse(self, arguments, pattern):
         content = self.read("a.points")

@@ -31,9 +31,11 @@ class BruteForce : public Technique {
 
     void prepare(const Frame& frame) override {
         lights_.emplace(device_, frame);
+        stats_ = {};
         stats_.visible_lights = frame.lights.size();
-        stats_.build_ms.push_back(0.0);
     }
+
+    void rebuild(const Frame&) override {}
 
     std::vector<PixelRecord> record(const Frame& frame) override {
         return pass_.record(frame, lights_.value(), one_band(frame, {}));
@@ -49,7 +51,6 @@ class BruteForce : public Technique {
     }
 
     std::vector<CellClass> classify(const Frame&) override { return {}; }
-    const TechniqueStats& stats() const override { return stats_; }
     bool remove_one_reference(const Frame&) override { return false; }
 
   private:
@@ -57,7 +58,6 @@ class BruteForce : public Technique {
     TechniqueInfo info_;
     std::optional<FrameLights> lights_;
     ShadingPass pass_;
-    TechniqueStats stats_;
 };
 
 } // namespace

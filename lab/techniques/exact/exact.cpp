@@ -42,11 +42,14 @@ class Exact : public Technique {
     // No time: it would be the oracle's, and no frame could pay it.
     void prepare(const Frame& frame) override {
         lights_.emplace(device_, frame);
+        stats_ = {};
         if (frame.lists != nullptr)
             take(*frame.lists, frame);
         else
             take(find_point_lists(frame, frame.points.download_positions()), frame);
     }
+
+    void rebuild(const Frame&) override {}
 
     std::vector<PixelRecord> record(const Frame& frame) override {
         return pass_.record(frame, lights_.value(), lists_.value().bands());
@@ -61,7 +64,6 @@ class Exact : public Technique {
     }
 
     std::vector<CellClass> classify(const Frame&) override { return {}; }
-    const TechniqueStats& stats() const override { return stats_; }
 
     // Every light of a list affects its point, so any will do: it becomes the padding light behind the last.
     bool remove_one_reference(const Frame&) override {
@@ -83,7 +85,6 @@ class Exact : public Technique {
     std::optional<FrameLights> lights_;
     std::optional<ListBands> lists_;
     ShadingPass pass_;
-    TechniqueStats stats_;
 };
 
 } // namespace

@@ -1,0 +1,12 @@
+#pragma once
+// Rows as comma-separated values, for spreadsheets.
+
+#include "lab/suites/row.h"
+
+namespace manylights::lab::suites {
+
+/// A line of titles, and one per row. Times become KEY_min, KEY_median and KEY_max; objects KEY=VALUE pairs (stages: of
+/// their medians); what was not measured is empty.
+std::string csv_text(std::span<const Row> rows);
+
+} // namespace manylights::lab::suites

@@ -1,0 +1,153 @@
+#include "lab/scene/error.h"
+#include "lab/suites/quality.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace manylights::lab::suites {
+namespace {
+
+struct QualityScene {
+    const char* name;
+    const char* file; ///< in the folder of real scenes; null: built in
+    const char* distribution;
+};
+
+// Lights in the volume or near surfaces, as algorithms and papers measured scenes of their kinds.
+constexpr QualityScene kScenes[] = {{"canyon", nullptr, "volume"},
+                                    {"citadel", nullptr, "surface"},
+                                    {"bars", nullptr, "volume"},
+                                    {"sponza", "sponza/sponza.glb", "surface"}};
+
+constexpr std::uint32_t kCameras = 4, kPathFrames = 16;
+
+/// What the suite runs of its own accord.
+struct Plan {
+    std::uint32_t width, height;
+    std::vector<std::uint32_t> lights;
+    std::vector<std::uint32_t> main_lights; ///< of them, those with the path and with times
+    std::vector<std::uint32_t> cameras, frames;
+    Rounds rounds;
+};
+
+std::vector<std::uint32_t> numbers_below(std::uint32_t end, std::uint32_t step) {
+    std::vector<std::uint32_t> numbers;
+    for (std::uint32_t i = 0; i < end; i += step) numbers.push_back(i);
+    return numbers;
+}
+
+Plan plan_of(const SuiteOptions& options) {
+    Plan plan = options.quick ? Plan{480, 270, {4096, 65536}, {65536}, {0}, numbers_below(kPathFrames, 8), {3, 2, 3, 3}}
+                              : Plan{1920,
+                                     1080,
+                                     {1024, 8192, 65536, 262144, 1048576},
+                                     {65536, 1048576},
+                                     numbers_below(kCameras, 1),
+                                     numbers_below(kPathFrames, 1),
+                                     {5, 3, 5, 5}};
+    if (options.width != 0) plan.width = options.width, plan.height = options.height;
+    if (!options.lights.empty()) plan.lights = plan.main_lights = options.lights;
+    if (options.repeat != 0)
+        plan.rounds = {options.repeat, options.repeat, plan.rounds.builds_per_block, options.repeat};
+    const auto wanted = [&](const char* views) {
+        return options.views.empty() ||
+               std::find(options.views.begin(), options.views.end(), views) != options.views.end();
+    };
+    if (!wanted("cameras")) plan.cameras.clear();
+    if (!wanted("path")) plan.frames.clear();
+    return plan;
+}
+
+// The settings that Tiled Light Trees was measured with (section 4.2), for its structures and its baseline alike.
+OptionValues options_of(const std::string& technique) {
+    OptionValues options{{"tile_size", "48"}};
+    if (technique == "clustered" || technique == "hybrid_light_trees") options.emplace_back("slice_count", "16");
+    if (technique == "tiled_light_trees" || technique == "hybrid_light_trees") options.emplace_back("leaf_size", "4");
+    return options.size() > 1 ? options : OptionValues{};
+}
+
+// Brute force tests every light for every point: its figures are the number of lights, and it would take days.
+std::vector<TechniqueChoice> techniques_of(const SuiteOptions& options) {
+    std::vector<TechniqueChoice> choices;
+    for (const TechniqueInfo& info : technique_infos()) {
+        const bool named =
+            std::find(options.techniques.begin(), options.techniques.end(), info.name) != options.techniques.end();
+        if (named || (options.techniques.empty() && info.name != "brute_force"))
+            choices.push_back({info.name, options_of(info.name)});
+    }
+    return choices;
+}
+
+bool contains(const std::vector<std::uint32_t>& numbers, std::uint32_t number) {
+    return std::find(numbers.begin(), numbers.end(), number) != numbers.end();
+}
+
+void add_cases(std::vector<Case>& cases, const Case& scene_case, const Plan& plan) {
+    for (const std::uint32_t lights : plan.lights) {
+        Case c = scene_case;
+        c.lights.count = lights;
+        const bool is_main = contains(plan.main_lights, lights);
+        if (is_main) c.rounds = plan.rounds;
+        for (const std::uint32_t camera : plan.cameras) {
+            c.view = {false, camera};
+            cases.push_back(c);
+        }
+        c.rounds = {};
+        for (const std::uint32_t frame : is_main ? plan.frames : std::vector<std::uint32_t>{}) {
+            c.view = {true, frame};
+            cases.push_back(c);
+        }
+    }
+}
+
+std::vector<QualityScene> scenes_of(const SuiteOptions& options) {
+    std::vector<QualityScene> scenes;
+    for (const QualityScene& scene : kScenes)
+        if (options.scenes.empty() ||
+            std::find(options.scenes.begin(), options.scenes.end(), scene.name) != options.scenes.end())
+            scenes.push_back(scene);
+    return scenes;
+}
+
+template <typename Known>
+void check_names(const char* option, const std::vector<std::string>& names, const Known& known) {
+    for (const std::string& name : names)
+        if (std::find(known.begin(), known.end(), name) == known.end())
+            throw InputError(fmt::format("{} '{}': must be one of {}", option, name, fmt::join(known, ", ")));
+}
+
+void check_options(const SuiteOptions& options) {
+    std::vector<std::string> scenes;
+    for (const QualityScene& scene : kScenes) scenes.emplace_back(scene.name);
+    check_names("--scenes", options.scenes, scenes);
+    check_names("--views", options.views, std::vector<std::string>{"cameras", "path"});
+}
+
+} // namespace
+
+CaseList quality_cases(const SuiteOptions& options) {
+    check_options(options);
+    const Plan plan = plan_of(options);
+    CaseList list;
+    for (const QualityScene& scene : scenes_of(options)) {
+        Case c;
+        c.scene = {scene.name, scene.name, options.detail};
+        if (scene.file != nullptr) {
+            c.scene.source = (std::filesystem::path(options.scene_folder) / scene.file).string();
+            if (!std::filesystem::exists(c.scene.source)) {
+                list.skipped.push_back(fmt::format("{}: skipped, for {} is not there", scene.name, c.scene.source));
+                continue;
+            }
+        }
+        c.lights.distribution = scene.distribution;
+        c.width = plan.width;
+        c.height = plan.height;
+        c.techniques = techniques_of(options);
+        add_cases(list.cases, c, plan);
+    }
+    return list;
+}
+
+} // namespace manylights::lab::suites

@@ -1,0 +1,31 @@
+#pragma once
+// The columns of a row, in order: what kind of value each holds, and whether it may be missing.
+
+#include "lab/suites/row.h"
+
+namespace manylights::lab::suites {
+
+enum class ColumnKind {
+    text,
+    texts,  ///< an object of texts
+    whole,  ///< a whole number, not negative
+    number, ///< finite, not negative
+    times,  ///< {"min", "median", "max"}: numbers in order, or all null where nothing was measured
+    stages, ///< an object of times
+    hash,   ///< 16 hexadecimal digits
+};
+
+struct Column {
+    const char* key;
+    ColumnKind kind;
+    bool may_be_null; ///< where nothing was measured; times and stages have their own way of saying so
+
+    Row empty_value() const;
+};
+
+std::span<const Column> schema();
+
+/// What is wrong with a row, by key and rule; empty: nothing.
+std::string row_fault(const Row& row);
+
+} // namespace manylights::lab::suites

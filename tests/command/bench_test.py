@@ -1,0 +1,131 @@
+"""`bench`: files, the schema of rows, runs that are stopped and resumed, and that a wrong light set yields no figure."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from harness import PROGRAM, CommandTest
+
+SMALL_BENCH = ["bench", "quality", "--scenes", "bars", "--detail", "low", "--size", "64x36", "--out", "out"]
+TINY = [*SMALL_BENCH, "--views", "path", "--lights", "300,600"]
+TECHNIQUES = ["exact", "clustered", "tiled_light_trees", "hybrid_light_trees"]
+TIMES = ("build_ms", "cold_build_ms", "stages_ms", "shade_ms", "shade_over_exact")
+
+
+def without_times(row):
+    return {key: value for key, value in row.items() if key not in TIMES}
+
+
+class BenchTest(CommandTest):
+    def rows(self):
+        with open(self.path("out/quality.json")) as file:
+            return json.load(file)["rows"]
+
+    def counted(self):
+        return [without_times(row) for row in self.rows()]
+
+
+class Bench(BenchTest):
+    def test_files_hold_a_row_per_case_and_technique(self):
+        done = self.assert_done(*TINY)
+        self.assertEqual(done.stderr, "")
+        rows = self.rows()
+        self.assertEqual(len(rows), 2 * 16 * len(TECHNIQUES))
+        self.assertEqual([row["technique"] for row in rows[:4]], TECHNIQUES)
+        for row in rows:
+            self.assertEqual(row["missing_points"], 0)
+            self.assertGreaterEqual(row["tested_mean"], row["affecting_mean"])
+            self.assertGreaterEqual(row["wave_tested_64"], row["wave_affecting_64"])
+        with open(self.path("out/quality.csv"), newline="") as file:
+            table = list(csv.DictReader(file))
+        self.assertEqual([line["technique"] for line in table], [row["technique"] for row in rows])
+        self.assertEqual([float(line["tested_mean"]) for line in table], [row["tested_mean"] for row in rows])
+        with open(self.path("out/quality.md")) as file:
+            self.assertEqual(file.read(), done.stdout)
+
+    def test_every_technique_has_the_light_sets_of_exact(self):
+        self.assert_done(*TINY)
+        hashes = {}
+        for row in self.rows():
+            hashes.setdefault((row["lights"], row["camera"]), set()).add(row["light_set_hash"])
+        self.assertEqual({len(found) for found in hashes.values()}, {1})
+
+    def test_times_are_taken_where_they_are_asked_for(self):
+        self.assert_done(*SMALL_BENCH, "--views", "cameras", "--lights", "300", "--repeat", "2")
+        for row in self.rows():
+            self.assertIsNotNone(row["shade_over_exact"]["median"])
+            if row["technique"] == "exact":
+                self.assertEqual(row["shade_over_exact"], {"min": 1, "median": 1, "max": 1})
+                self.assertIsNone(row["build_ms"]["median"])
+            else:
+                self.assertIsNotNone(row["cold_build_ms"]["median"])
+                self.assertEqual(list(row["stages_ms"]), ["plan", "write"])
+
+    def test_two_runs_count_the_same(self):
+        self.assert_done(*TINY)
+        first = self.counted()
+        self.assert_done(*TINY)
+        self.assertEqual(self.counted(), first)
+
+    def test_a_technique_with_a_planted_error_has_no_figure(self):
+        done = self.assert_done(*TINY, "--remove-one-light", "clustered", code=1)
+        self.assertRegex(done.stderr, r"\A(manylights: bars volume \d+, frame \d+: clustered: \d+ of \d+ points [^\n]+\n)+\Z")
+        self.assertIn("WRONG", done.stdout)
+        for row in self.rows():
+            if row["technique"] != "clustered":
+                self.assertIsNotNone(row["tested_mean"])
+                continue
+            self.assertGreater(row["missing_points"], 0)
+            for key in ("tested_mean", "wave_cost_64", "references", "structure_bytes", "light_set_hash"):
+                self.assertIsNone(row[key], key)
+
+    def test_a_scene_that_is_not_there_is_skipped_with_the_reason(self):
+        done = self.assert_done("bench", "quality", "--scenes", "sponza", "--scene-folder", "nowhere", "--out", "out")
+        self.assertRegex(done.stderr, r"\Amanylights: sponza: skipped, for nowhere/sponza/sponza.glb is not there\n\Z")
+        self.assertEqual(self.rows(), [])
+
+
+class Resume(BenchTest):
+    def journal(self):
+        with open(self.path("out/quality.journal"), "rb") as file:
+            return file.read()
+
+    def run_and_kill(self, lines):
+        """Starts a run and kills it hard once its journal has this many lines."""
+        process = subprocess.Popen([PROGRAM, *TINY], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        end = time.monotonic() + 200
+        while time.monotonic() < end and process.poll() is None:
+            if os.path.exists(self.path("out/quality.journal")) and self.journal().count(b"\n") >= lines:
+                break
+            time.sleep(0.01)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        self.assertFalse(os.path.exists(self.path("out/quality.json")), "killed too late")
+
+    def test_a_killed_run_goes_on_and_gives_the_same_rows(self):
+        self.run_and_kill(5)
+        done_before = self.journal()
+        self.assert_done(*TINY, "--resume")
+        self.assertTrue(self.journal().startswith(done_before[:done_before.rfind(b"\n") + 1]), "measured again")
+        resumed = self.counted()
+        self.assert_done(*TINY)
+        self.assertEqual(self.counted(), resumed)
+
+    def test_what_is_complete_is_not_measured_again(self):
+        self.assert_done(*TINY)
+        before, rows = self.journal(), self.rows()
+        self.assert_done(*TINY, "--resume")
+        self.assertEqual((self.journal(), self.rows()), (before, rows))
+
+    def test_a_damaged_journal_is_refused(self):
+        os.mkdir(self.path("out"))
+        self.write("out/quality.journal", b"{}\n")
+        self.assert_refused([*TINY, "--resume"], {2}, r"--resume 'out/quality.journal': suite is null, must be")
+
+
+if __name__ == "__main__":
+    unittest.main()
