@@ -7,7 +7,7 @@
 namespace manylights::lab::suites {
 namespace {
 
-constexpr const char* kTimes[] = {"min", "median", "max"};
+constexpr const char* kTimes[] = {"min", "median", "max", "repeats"};
 
 // Quoted where it needs to be (RFC 4180).
 std::string quoted(const std::string& cell) {

@@ -5,8 +5,8 @@
 
 namespace manylights::lab::suites {
 
-/// A line of titles, and one per row. Times become KEY_min, KEY_median and KEY_max; objects KEY=VALUE pairs (stages: of
-/// their medians); what was not measured is empty.
+/// A line of titles, and one per row. Times become KEY_min, KEY_median, KEY_max and KEY_repeats; objects KEY=VALUE
+/// pairs (stages: of their medians); what was not measured is empty.
 std::string csv_text(std::span<const Row> rows);
 
 } // namespace manylights::lab::suites

@@ -39,14 +39,16 @@ std::vector<std::uint32_t> numbers_below(std::uint32_t end, std::uint32_t step) 
 }
 
 Plan plan_of(const SuiteOptions& options) {
-    Plan plan = options.quick ? Plan{480, 270, {4096, 65536}, {65536}, {0}, numbers_below(kPathFrames, 8), {3, 2, 3, 3}}
-                              : Plan{1920,
-                                     1080,
-                                     {1024, 8192, 65536, 262144, 1048576},
-                                     {65536, 1048576},
-                                     numbers_below(kCameras, 1),
-                                     numbers_below(kPathFrames, 1),
-                                     {5, 3, 5, 5}};
+    Plan plan =
+        options.quick
+            ? Plan{480, 270, {4096, 65536, 1048576}, {65536, 1048576}, {0}, numbers_below(kPathFrames, 8), {3, 2, 3, 3}}
+            : Plan{1920,
+                   1080,
+                   {1024, 8192, 65536, 262144, 1048576},
+                   {65536, 1048576},
+                   numbers_below(kCameras, 1),
+                   numbers_below(kPathFrames, 1),
+                   {5, 3, 5, 5}};
     if (options.width != 0) plan.width = options.width, plan.height = options.height;
     if (!options.lights.empty()) plan.lights = plan.main_lights = options.lights;
     if (options.repeat != 0)

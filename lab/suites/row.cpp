@@ -10,10 +10,11 @@ namespace manylights::lab::suites {
 namespace {
 
 Row times(const std::vector<double>& ms) {
-    if (ms.empty()) return {{"min", nullptr}, {"median", nullptr}, {"max", nullptr}};
+    if (ms.empty()) return no_times();
     return {{"min", *std::min_element(ms.begin(), ms.end())},
             {"median", median(ms)},
-            {"max", *std::max_element(ms.begin(), ms.end())}};
+            {"max", *std::max_element(ms.begin(), ms.end())},
+            {"repeats", ms.size()}};
 }
 
 Row options_object(const OptionValues& options) {

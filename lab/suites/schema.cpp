@@ -57,12 +57,12 @@ bool is_number(const Row& value) {
 }
 
 bool is_times(const Row& value) {
-    if (!value.is_object() || value.size() != 3) return false;
-    for (const char* key : {"min", "median", "max"})
+    if (!value.is_object() || value.size() != 4) return false;
+    for (const char* key : {"min", "median", "max", "repeats"})
         if (!value.contains(key)) return false;
-    if (value["min"].is_null()) return value["median"].is_null() && value["max"].is_null();
-    return is_number(value["min"]) && is_number(value["median"]) && is_number(value["max"]) &&
-           value["min"] <= value["median"] && value["median"] <= value["max"];
+    if (value["repeats"] == 0) return value == no_times();
+    return value["repeats"].is_number_unsigned() && is_number(value["min"]) && is_number(value["median"]) &&
+           is_number(value["max"]) && value["min"] <= value["median"] && value["median"] <= value["max"];
 }
 
 bool is_hash(const Row& value) {
@@ -106,7 +106,7 @@ const char* rule(ColumnKind kind) {
     case number:
         return "a finite number, not negative";
     case times:
-        return "an object of min <= median <= max, or of three nulls";
+        return "an object of min <= median <= max and repeats";
     case stages:
         return "an object of times";
     case hash:
@@ -118,11 +118,13 @@ const char* rule(ColumnKind kind) {
 } // namespace
 
 Row Column::empty_value() const {
-    if (kind == times) return {{"min", nullptr}, {"median", nullptr}, {"max", nullptr}};
+    if (kind == times) return no_times();
     return kind == stages ? Row::object() : Row(nullptr);
 }
 
 std::span<const Column> schema() { return kColumns; }
+
+Row no_times() { return {{"min", nullptr}, {"median", nullptr}, {"max", nullptr}, {"repeats", 0}}; }
 
 std::string row_fault(const Row& row) {
     if (!row.is_object()) return "must be an object";

@@ -10,7 +10,7 @@ enum class ColumnKind {
     texts,  ///< an object of texts
     whole,  ///< a whole number, not negative
     number, ///< finite, not negative
-    times,  ///< {"min", "median", "max"}: numbers in order, or all null where nothing was measured
+    times,  ///< {"min", "median", "max", "repeats"}: numbers in order; null and 0 repeats where nothing was measured
     stages, ///< an object of times
     hash,   ///< 16 hexadecimal digits
 };
@@ -24,6 +24,9 @@ struct Column {
 };
 
 std::span<const Column> schema();
+
+/// The times of what was not measured.
+Row no_times();
 
 /// What is wrong with a row, by key and rule; empty: nothing.
 std::string row_fault(const Row& row);

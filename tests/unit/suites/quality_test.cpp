@@ -39,7 +39,7 @@ TEST(QualityCases, cameras_for_every_count_and_the_path_for_the_main_ones) {
 TEST(QualityCases, quick_is_a_small_part) {
     SuiteOptions options = built_in_scenes();
     options.quick = true;
-    EXPECT_LT(quality_cases(options).cases.size(), 20u);
+    EXPECT_LT(quality_cases(options).cases.size(), 40u);
 }
 
 TEST(QualityCases, options_narrow_it_down) {

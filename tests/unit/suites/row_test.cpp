@@ -59,9 +59,9 @@ TEST(Row, keys_are_those_of_the_shared_schema_in_its_order) {
 
 TEST(Row, times_are_minimum_median_maximum_and_null_where_not_measured) {
     const Row row = sample_row();
-    EXPECT_EQ(row["build_ms"].dump(), R"({"min":1.0,"median":2.5,"max":10.0})");
-    EXPECT_EQ(row["shade_ms"].dump(), R"({"min":null,"median":null,"max":null})");
-    EXPECT_EQ(row["stages_ms"]["plan"].dump(), R"({"min":0.5,"median":1.5,"max":2.0})");
+    EXPECT_EQ(row["build_ms"].dump(), R"({"min":1.0,"median":2.5,"max":10.0,"repeats":4})");
+    EXPECT_EQ(row["shade_ms"].dump(), R"({"min":null,"median":null,"max":null,"repeats":0})");
+    EXPECT_EQ(row["stages_ms"]["plan"].dump(), R"({"min":0.5,"median":1.5,"max":2.0,"repeats":3})");
     EXPECT_EQ(row["options"].dump(), R"({"tile_size":"32"})");
     EXPECT_EQ(row["light_set_hash"], "0000000000000abc");
     EXPECT_EQ(row["camera"], "street");
@@ -117,6 +117,8 @@ TEST(Row, whatever_does_not_fit_the_schema_is_named) {
               "light_set_hash: is \"ABC\", must be 16 hexadecimal digits");
     EXPECT_NE(fault([](Row& row) { row["build_ms"]["min"] = 99.0; }), "");
     EXPECT_NE(fault([](Row& row) { row["build_ms"]["max"] = nullptr; }), "");
+    EXPECT_NE(fault([](Row& row) { row["build_ms"]["repeats"] = 0; }), "");
+    EXPECT_NE(fault([](Row& row) { row["shade_ms"]["repeats"] = 1; }), "");
     EXPECT_NE(fault([](Row& row) { row["stages_ms"]["plan"] = 1.0; }), "");
     EXPECT_NE(fault([](Row& row) { row["options"]["tile_size"] = 32; }), "");
     EXPECT_EQ(row_fault(Row::array()), "must be an object");
@@ -129,9 +131,9 @@ TEST(Csv, has_a_title_per_cell_and_quotes_what_needs_it) {
     std::getline(lines, titles);
     std::getline(lines, cells);
     EXPECT_TRUE(titles.starts_with("technique,options,scene,"));
-    EXPECT_NE(titles.find(",build_ms_min,build_ms_median,build_ms_max,"), std::string::npos);
+    EXPECT_NE(titles.find(",build_ms_min,build_ms_median,build_ms_max,build_ms_repeats,"), std::string::npos);
     EXPECT_NE(cells.find(",\"driver 1, new\","), std::string::npos);
-    EXPECT_NE(cells.find(",1.0,2.5,10.0,"), std::string::npos);
+    EXPECT_NE(cells.find(",1.0,2.5,10.0,4,"), std::string::npos);
     EXPECT_NE(cells.find(",plan=1.5 write=1.0,"), std::string::npos);
     // One comma is inside quotes.
     EXPECT_EQ(std::count(titles.begin(), titles.end(), ',') + 1, std::count(cells.begin(), cells.end(), ','));
