@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<const char*, 6> kViewNames = {"shaded", "tested", "affecting", "nodes", "references", "structure"};
 constexpr std::array<const char*, 4> kListNames = {"scenes", "techniques", "suites", "devices"};
 constexpr std::array<const char*, 2> kDetailNames = {"low", "full"};
-constexpr std::array<const char*, 3> kTruthNames = {"auto", "brute_force", kGrid};
+constexpr std::array<const char*, 3> kTruthNames = {"auto", "brute_force", kGridOracle};
 
 // Option values as they were typed; CLI11 finds them, the functions below judge them, so all refusals sound alike.
 struct Typed {
@@ -118,7 +118,7 @@ VerifyArguments finish_verify(VerifyArguments verify, const Typed& typed) {
     verify.techniques = read_techniques(verify.all_techniques ? all : typed.techniques);
     check_setting_keys(verify.selectors.settings, verify.techniques);
     verify.truth = static_cast<TruthKind>(choice("--truth", typed.truth, kTruthNames));
-    if (verify.remove_one_light.empty() || verify.remove_one_light == kGrid) return verify;
+    if (verify.remove_one_light.empty() || verify.remove_one_light == kGridOracle) return verify;
     check_technique("--remove-one-light", verify.remove_one_light, verify.techniques);
     return verify;
 }

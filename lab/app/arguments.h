@@ -6,6 +6,7 @@
 #include "lab/scene/scene.h"
 #include "lab/suites/suite.h"
 #include "lab/techniques/technique.h"
+#include "lab/techniques/truth.h"
 
 #include <optional>
 #include <string>
@@ -13,8 +14,6 @@
 #include <vector>
 
 namespace manylights::lab::app {
-
-constexpr const char* kGrid = "grid"; ///< the grid oracle where a technique could be named
 
 /// What is looked at and what computes it: common to render and verify.
 struct Selectors {
@@ -52,7 +51,7 @@ struct VerifyArguments {
     bool all_techniques = false;         ///< none was named: they are all there are
     TruthKind truth = TruthKind::automatic;
     std::string stats;            ///< may be empty
-    std::string remove_one_light; ///< technique to damage on purpose, or kGrid; empty: none
+    std::string remove_one_light; ///< technique to damage on purpose, or kGridOracle; empty: none
 };
 
 struct BenchArguments {
@@ -62,7 +61,7 @@ struct BenchArguments {
     bool resume = false;
     std::string device; ///< empty: the best one
     bool validation = false;
-    std::string remove_one_light; ///< technique to damage on purpose; empty: none
+    std::string remove_one_light; ///< as for verify
 };
 
 enum class ListKind { scenes, techniques, suites, devices };

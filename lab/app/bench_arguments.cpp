@@ -61,7 +61,7 @@ BenchArguments finish_bench(const BenchOptions& bench) {
     }
     options.detail = choice("--detail", bench.detail, kDetailNames) == 0 ? Detail::low : Detail::full;
     suites::find_suite(arguments.suite);
-    if (!arguments.remove_one_light.empty())
+    if (!arguments.remove_one_light.empty() && arguments.remove_one_light != kGridOracle)
         check_technique("--remove-one-light", arguments.remove_one_light, technique_names());
     return arguments;
 }

@@ -26,21 +26,12 @@ std::string left_out() {
                        with_separators(kMostTests));
 }
 
-void remove_one_light(PointLists& lists, std::span<const PointPosition> positions) {
-    for (const std::size_t pixel : checked_pixels(positions)) {
-        if (lists.of(pixel).empty()) continue;
-        lists.lights.erase(lists.lights.begin() + static_cast<std::ptrdiff_t>(lists.first[pixel]));
-        for (std::size_t i = pixel + 1; i < lists.first.size(); ++i) --lists.first[i];
-        return;
-    }
-    throw InputError(fmt::format("--remove-one-light '{}': there is no light to remove", kGrid));
-}
-
 void find_sets_by_grid(Truth& truth, const Frame& frame, bool damaged, Progress& progress) {
     progress.at("grid oracle: finding the lights of every point");
     const std::vector<PointPosition> positions = frame.points.download_positions();
     PointLists lists = find_point_lists(frame, positions);
-    if (damaged) remove_one_light(lists, positions);
+    if (damaged && !remove_one_light(lists, positions))
+        throw InputError(fmt::format("--remove-one-light '{}': there is no light to remove", kGridOracle));
     progress.at("grid oracle: testing every light at some of the points");
     const ListCheck check = check_lists(frame, lists, positions);
     if (check.first_wrong)
@@ -73,7 +64,7 @@ void find_by_grid(Truth& truth, Workbench& bench, bool damaged, Progress& progre
 }
 
 void find_by_brute_force(Truth& truth, Workbench& bench, bool damaged, Progress& progress) {
-    if (damaged) throw InputError(fmt::format("--remove-one-light '{}': the truth is {}", kGrid, kBruteForce));
+    if (damaged) throw InputError(fmt::format("--remove-one-light '{}': the truth is {}", kGridOracle, kBruteForce));
     take_radiance(truth, bench, false, progress);
     truth.records = truth.shaded;
     truth.name = kBruteForce;
@@ -86,7 +77,7 @@ void find_by_brute_force(Truth& truth, Workbench& bench, bool damaged, Progress&
 Truth find_truth(Workbench& bench, const VerifyArguments& arguments, Progress& progress) {
     const bool too_long = is_too_long(bench.frame());
     const bool by_grid = arguments.truth == TruthKind::grid || (arguments.truth == TruthKind::automatic && too_long);
-    const bool damaged = arguments.remove_one_light == kGrid;
+    const bool damaged = arguments.remove_one_light == kGridOracle;
     Truth truth;
     truth.mask = bench.shaded_mask();
     truth.techniques = arguments.techniques;

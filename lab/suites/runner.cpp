@@ -24,6 +24,7 @@ Runner::Truth Runner::find_truth(const Frame& frame) {
     const std::vector<PointPosition> positions = frame.points.download_positions();
     Truth truth;
     truth.lists = find_point_lists(frame, positions);
+    if (options_.remove_one_light == kGridOracle) remove_one_light(truth.lists, positions);
     options_.say("testing every light at some of the points");
     const ListCheck check = check_lists(frame, truth.lists, positions);
     if (check.first_wrong)

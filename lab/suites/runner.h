@@ -14,7 +14,7 @@ using Say = std::function<void(const std::string& what)>;
 
 struct RunnerOptions {
     Say say;
-    std::string remove_one_light; ///< technique to damage on purpose; empty: none
+    std::string remove_one_light; ///< technique to damage on purpose, or kGridOracle; empty: none
 };
 
 class Runner {

@@ -130,4 +130,14 @@ ListCheck check_lists(const Frame& frame, const PointLists& lists, std::span<con
     return check;
 }
 
+bool remove_one_light(PointLists& lists, std::span<const PointPosition> positions) {
+    for (const std::size_t pixel : checked_pixels(positions)) {
+        if (lists.of(pixel).empty()) continue;
+        lists.lights.erase(lists.lights.begin() + static_cast<std::ptrdiff_t>(lists.first[pixel]));
+        for (std::size_t i = pixel + 1; i < lists.first.size(); ++i) --lists.first[i];
+        return true;
+    }
+    return false;
+}
+
 } // namespace manylights::lab

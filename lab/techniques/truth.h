@@ -8,6 +8,9 @@
 
 namespace manylights::lab {
 
+/// The grid oracle's name where a technique could be named.
+constexpr const char* kGridOracle = "grid";
+
 /// What a technique's records must hold of each pixel's light sets, bit for bit as the device computes it. Radiance and
 /// work are zero: they are not known here. positions and normals: of every pixel, row by row.
 std::vector<PixelRecord> light_set_records(const Frame& frame, const PointLists& lists,
@@ -28,5 +31,9 @@ struct ListCheck {
 
 /// Asks every light at each of the checked pixels.
 ListCheck check_lists(const Frame& frame, const PointLists& lists, std::span<const PointPosition> positions);
+
+/// Test hook: takes a light out of the list of a pixel that is checked, so that a test can watch the check fail. False
+/// where no such list has any.
+bool remove_one_light(PointLists& lists, std::span<const PointPosition> positions);
 
 } // namespace manylights::lab

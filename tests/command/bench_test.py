@@ -10,7 +10,8 @@ import unittest
 
 from harness import PROGRAM, CommandTest
 
-SMALL_BENCH = ["bench", "quality", "--scenes", "bars", "--detail", "low", "--size", "64x36", "--out", "out"]
+VIEW = ["--detail", "low", "--size", "64x36"]
+SMALL_BENCH = ["bench", "quality", "--scenes", "bars", *VIEW, "--out", "out"]
 TINY = [*SMALL_BENCH, "--views", "path", "--lights", "300,600"]
 TECHNIQUES = ["exact", "clustered", "tiled_light_trees", "hybrid_light_trees"]
 TIMES = ("build_ms", "cold_build_ms", "stages_ms", "shade_ms", "shade_over_exact")
@@ -57,12 +58,15 @@ class Bench(BenchTest):
     def test_times_are_taken_where_they_are_asked_for(self):
         self.assert_done(*SMALL_BENCH, "--views", "cameras", "--lights", "300", "--repeat", "2")
         for row in self.rows():
-            self.assertIsNotNone(row["shade_over_exact"]["median"])
+            self.assertEqual(row["shade_ms"]["repeats"], 2)
+            self.assertEqual(row["shade_over_exact"]["repeats"], 2)
             if row["technique"] == "exact":
                 self.assertEqual(row["shade_over_exact"], {"min": 1, "median": 1, "max": 1, "repeats": 2})
                 self.assertIsNone(row["build_ms"]["median"])
             else:
-                self.assertIsNotNone(row["cold_build_ms"]["median"])
+                self.assertEqual(row["build_ms"]["repeats"], 2 * 5)
+                self.assertEqual(row["cold_build_ms"]["repeats"], 2)
+                self.assertEqual(row["stages_ms"]["plan"]["repeats"], 2 * 5)
                 self.assertEqual(list(row["stages_ms"]), ["plan", "write"])
 
     def test_two_runs_count_the_same(self):
@@ -82,6 +86,22 @@ class Bench(BenchTest):
             self.assertGreater(row["missing_points"], 0)
             for key in ("tested_mean", "wave_cost_64", "references", "structure_bytes", "light_set_hash"):
                 self.assertIsNone(row[key], key)
+
+    def test_a_truth_that_is_not_brute_forces_has_no_figure_at_all(self):
+        done = self.assert_done(*SMALL_BENCH, "--views", "cameras", "--lights", "300", "--remove-one-light", "grid", code=1)
+        self.assertRegex(done.stderr, r"(?m)^manylights: bars volume 300, camera 0: clustered: the grid oracle differs from "
+                         r"brute force at pixel \(\d+, \d+\)$")
+        for row in self.rows():
+            self.assertEqual((row["tested_mean"], row["missing_points"], row["shade_ms"]["median"]), (None, None, None))
+
+    def test_rows_are_those_of_render(self):
+        self.assert_done(*TINY)
+        for lights, camera in (("300", "path:0"), ("600", "path:0.0625")):
+            self.assert_done("render", "--scene", "bars", *VIEW, "--lights", lights, "--camera", camera, "--technique", "clustered",
+                             "--set", "tile_size=48", "--set", "slice_count=16", "--out", "a.png", "--stats", "a.json")
+            with open(self.path("a.json")) as file:
+                row = {**without_times(json.load(file)), "missing_points": 0}
+            self.assertIn(row, self.counted())
 
     def test_a_scene_that_is_not_there_is_skipped_with_the_reason(self):
         done = self.assert_done("bench", "quality", "--scenes", "sponza", "--scene-folder", "nowhere", "--out", "out")
