@@ -89,8 +89,8 @@ int run_bench(const BenchArguments& arguments) {
     const suites::Suite& suite = suites::find_suite(arguments.suite);
     const suites::CaseList list = suite.cases(arguments.options);
     for (const std::string& line : list.skipped) fmt::print(stderr, "manylights: {}\n", line);
-    make_folder(arguments.out);
     gpu::Device device({arguments.device, arguments.validation});
+    make_folder(arguments.out);
     const Row conditions = suites::conditions_of(suite.name, device.info());
     suites::Journal journal(file_name(arguments, ".journal"), conditions, arguments.resume);
     const Outcome outcome = run_cases(list.cases, journal, device, arguments.remove_one_light);

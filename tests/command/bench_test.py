@@ -109,6 +109,27 @@ class Bench(BenchTest):
         self.assertEqual(self.rows(), [])
 
 
+class BenchRefusals(BenchTest):
+    def test_bad_options_are_refused_before_anything_is_made(self):
+        for arguments, pattern in (
+            (["nothing", "--out", "out"], r"suite 'nothing': must be one of quality"),
+            (["quality"], r"--out is required"),
+            (["--out", "out"], r"suite is required"),
+            (["quality", "--out", "/proc/none"], r"--out '/proc/none': is no folder and cannot be made one"),
+            (["quality", "--out", "out", "--scenes", "moon"], r"--scenes 'moon': must be one of canyon, "),
+            (["quality", "--out", "out", "--views", "side"], r"--views 'side': must be one of cameras, path"),
+            (["quality", "--out", "out", "--lights", "1,-1"], r"--lights '-1': must be a whole number from 0"),
+            (["quality", "--out", "out", "--repeat", "0"], r"--repeat '0': must be a whole number from 1 to 1000"),
+            (["quality", "--out", "out", "--size", "0x9"], r"--size '0x9': must be WIDTHxHEIGHT"),
+            (["quality", "--out", "out", "--techniques", "magic"], r"--techniques 'magic': unknown technique"),
+            (["quality", "--out", "out", "--detail", "some"], r"--detail 'some': must be one of low, full"),
+        ):
+            self.assert_refused(["bench", *arguments], {2}, pattern)
+
+    def test_without_a_device_nothing_is_written(self):
+        self.assert_refused([*SMALL_BENCH, "--device", "no such card"], {3}, "no such card")
+
+
 class Resume(BenchTest):
     def journal(self):
         with open(self.path("out/quality.journal"), "rb") as file:
