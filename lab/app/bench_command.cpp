@@ -75,10 +75,16 @@ std::string report_text(const suites::Suite& suite, const Row& conditions, const
     return text + "\n" + suite.tables(outcome.rows);
 }
 
+// A line per row, so that files of two runs compare line by line.
+std::string json_text(const Row& conditions, const std::vector<Row>& rows) {
+    std::string text = fmt::format("{{\"conditions\": {},\n\"rows\": [", conditions.dump());
+    for (const Row& row : rows) text += fmt::format("{}\n{}", &row == rows.data() ? "" : ",", row.dump());
+    return text + "\n]}\n";
+}
+
 void write_files(const BenchArguments& arguments, const Row& conditions, const Outcome& outcome,
                  const std::string& report) {
-    const Row whole = {{"conditions", conditions}, {"rows", outcome.rows}};
-    write_text(file_name(arguments, ".json"), whole.dump(1) + "\n");
+    write_text(file_name(arguments, ".json"), json_text(conditions, outcome.rows));
     write_text(file_name(arguments, ".csv"), suites::csv_text(outcome.rows));
     write_text(file_name(arguments, ".md"), report);
 }
