@@ -94,11 +94,11 @@ void write_files(const BenchArguments& arguments, const Row& conditions, const O
 int run_bench(const BenchArguments& arguments) {
     const suites::Suite& suite = suites::find_suite(arguments.suite);
     const suites::CaseList list = suite.cases(arguments.options);
-    for (const std::string& line : list.skipped) fmt::print(stderr, "manylights: {}\n", line);
     gpu::Device device({arguments.device, arguments.validation});
     make_folder(arguments.out);
     const Row conditions = suites::conditions_of(suite.name, device.info());
     suites::Journal journal(file_name(arguments, ".journal"), conditions, arguments.resume);
+    for (const std::string& line : list.skipped) fmt::print(stderr, "manylights: {}\n", line);
     const Outcome outcome = run_cases(list.cases, journal, device, arguments.remove_one_light);
     const std::string report = report_text(suite, conditions, list, outcome);
     write_files(arguments, conditions, outcome, report);
