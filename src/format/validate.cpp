@@ -41,7 +41,7 @@ Outcome validate_view(const MlView& view, const MlView& first, std::uint64_t ind
         return damaged("views", "cell_count must be tiles_x * tiles_y * slice_count", index);
     if (!std::isfinite(view.slice_scale) || !std::isfinite(view.slice_bias))
         return damaged("views", "slice_scale and slice_bias must be finite", index);
-    if ((view.reserved0 | view.reserved1 | view.reserved2 | view.reserved3) != 0)
+    if ((view.reserved1 | view.reserved2 | view.reserved3) != 0)
         return damaged("views", "reserved words must be 0", index);
     return {};
 }
