@@ -23,7 +23,10 @@
 //   references   two words per reference: uint light index, uint bounds (depth and rectangle)
 //
 // A slice's window holds every reference of its tile whose depths reach into the slice. Depths are integers there, by
-// ml_depth_code on both sides: producer and reader cannot disagree at an edge.
+// ml_depth_code on both sides: producer and reader cannot disagree at an edge. Tiles are in order without gaps: each
+// has its references and its entries where those of the tile before end, the first of a view behind those of the view
+// before (entries: behind the view's headers). From slice to slice a window's ends never go back, and no reference of a
+// class is outside of all windows.
 #ifndef MANYLIGHTS_FORMAT_H
 #define MANYLIGHTS_FORMAT_H
 
@@ -162,7 +165,8 @@ ML_FN MlUint ml_depth_code(float depth, float depth_scale) {
 }
 
 // The header of a tile: two cells. The form is that of ml_pack_tile_form; it is 0 in tiles without references, and only
-// there: where the form of a tile with references would be 0, its slice shift is 1.
+// there: where the form of a tile with references would be 0, its slice shift is 1. Without references base_code is 0,
+// and both places are those where the next tile begins.
 struct MlTile {
     MlUint first_reference; // absolute, in references (of two words)
     MlUint first_entry;     // absolute, in cells
