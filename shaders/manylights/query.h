@@ -81,7 +81,7 @@ ML_FN void ml_begin_cell(ML_IN(MlView) view, MlFloat2 position, ML_INOUT(MlCurso
 }
 
 // The window of a slice, relative to the tile's first reference.
-ML_FN MlWindow ml_read_window(ML_IN(MlTile) tile, ML_IN(MlTileForm) form, MlUint slice, ML_INOUT(MlCursor) cursor) {
+ML_FN MlWindow ml_read_window(ML_IN(MlTile) tile, ML_IN(MlTileForm) form, MlUint slice) {
     MlWindow window;
     window.small_first = window.large_first = window.large_last = 0u;
     window.small_last = form.flat_count;
@@ -90,9 +90,6 @@ ML_FN MlWindow ml_read_window(ML_IN(MlTile) tile, ML_IN(MlTileForm) form, MlUint
     MlCell first = ML_CELL(index);
     MlCell second = first;
     if ((form.two_classes & form.wide) != 0u) second = ML_CELL(index + 1u);
-#if defined(ML_COUNTERS)
-    cursor.nodes += 1u;
-#endif
     return ml_window_from_cells(form, slice, first, second);
 }
 
@@ -108,7 +105,10 @@ ML_FN void ml_begin_tile(ML_IN(MlView) view, MlFloat2 position, ML_INOUT(MlCurso
     MlUint code = ml_depth_code(cursor.depth, view.depth_scale);
     MlUint slice = (code - tile.base_code) >> form.slice_shift;
     if (tile.form == 0u || code < tile.base_code || slice > form.last_slice) return;
-    MlWindow window = ml_read_window(tile, form, slice, cursor);
+    MlWindow window = ml_read_window(tile, form, slice);
+#if defined(ML_COUNTERS)
+    if (form.flat_count == 0u) cursor.nodes += 1u;
+#endif
     cursor.reference = tile.first_reference + window.small_first;
     cursor.reference_end = tile.first_reference + window.small_last;
     cursor.node = tile.first_reference + window.large_first;

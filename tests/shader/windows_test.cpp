@@ -125,16 +125,18 @@ TEST(Windows, LightsBeginAndEndAtTheirCodes) {
         EXPECT_EQ(walk_at(buffers, code, 0, 0).lights, holders(tile, code, 0, 0));
 }
 
-TEST(Windows, ATileOf70000ReferencesIsWide) {
+// 65,535 references are the most of a narrow tile; with 70,000 it must be wide.
+TEST(Windows, TilesOfVeryManyReferencesKeepAllBitsOfTheirWindows) {
     oracle::Random random(13);
-    for (const Kind& kind : {kKinds[2], kKinds[3]}) {
-        const MadeTile tile = made_tile(random, kind, 70000, 16);
+    for (const Kind& kind : {kKinds[0], kKinds[1], kKinds[2], kKinds[3]}) {
+        const MlUint count = kind.wide != 0 ? 70000 : 65535;
+        const MadeTile tile = made_tile(random, kind, count, 16);
         HandmadeBuffers buffers = buffers_of({tile});
         for (MlUint slice = 0; slice < 16; ++slice) {
             const MlUint code = tile.base_code + (slice << 5) + random.below(32);
             const Walk result = walk_at(buffers, code, 5, 6);
             EXPECT_EQ(result.lights, candidates(tile, code, 5, 6)) << kind.name;
-            EXPECT_TRUE(std::ranges::any_of(result.lights, [](MlUint light) { return light > 7 * 65536; }));
+            EXPECT_TRUE(std::ranges::any_of(result.lights, [=](MlUint light) { return light > 7 * (count - 4000); }));
         }
         EXPECT_EQ(buffers.reads_outside, 0);
     }
@@ -150,6 +152,19 @@ TEST(Windows, TheFirstAndTheLastCodeAreDepthsLikeOthers) {
     for (const float depth : {depth_of(ML_DEPTH_CODE_MAX), 1e10f, 3e38f, kInfinity})
         EXPECT_EQ(walk(buffers, depth).lights, (std::vector<MlUint>{2, 3})) << depth;
     EXPECT_EQ(walk(buffers, depth_of(0x800000u)).lights, std::vector<MlUint>{2});
+}
+
+// A difference of codes that wraps must not come out as a slice, whatever the width of one.
+TEST(Windows, NothingIsBeforeTheFirstSlice) {
+    for (const MlUint slice_shift : {0u, 12u, 24u}) {
+        MadeTile tile;
+        tile.base_code = 4096;
+        tile.form = {slice_shift, 24, 0, 255, 0, 0, 0};
+        tile.small = {{1, 4096, ML_DEPTH_CODE_MAX}};
+        HandmadeBuffers buffers = buffers_of({tile});
+        EXPECT_EQ(walk_at(buffers, 4096, 0, 0).lights, std::vector<MlUint>{1});
+        for (const MlUint code : {0u, 1u, 4000u, 4095u}) EXPECT_EQ(walk_at(buffers, code, 0, 0).nodes, 1u) << code;
+    }
 }
 
 TEST(Windows, AnEmptyTileCostsItsHeader) {
@@ -189,17 +204,20 @@ TEST(Windows, EachPixelReadsItsOwnTile) {
 // Tiles of several rows whose edge is no power of two, cut by the image.
 TEST(Windows, StepsAreSixteenthsOfTheTile) {
     std::vector<MadeTile> tiles(6);
-    for (MadeTile& tile : tiles) {
-        tile.form = {5, 0, 0, 0, 0, 0, 16 + 16};
-        for (MlUint i = 0; i < 16; ++i) tile.small.push_back({i, 0, 20, i, i, 0, 15});
-        for (MlUint i = 0; i < 16; ++i) tile.small.push_back({16 + i, 0, 20, 0, 15, i, i});
+    for (MlUint t = 0; t < 6; ++t) {
+        tiles[t].form = {5, 0, 0, 0, 0, 0, 16 + 16};
+        for (MlUint i = 0; i < 16; ++i) tiles[t].small.push_back({100 * t + i, 0, 20, i, i, 0, 15});
+        for (MlUint i = 0; i < 16; ++i) tiles[t].small.push_back({100 * t + 16 + i, 0, 20, 0, 15, i, i});
     }
     HandmadeBuffers buffers = buffers_of(tiles);
     buffers.frame_view.width = 70, buffers.frame_view.height = 40;
     buffers.frame_view.tile_px = 24, buffers.frame_view.tiles_x = 3, buffers.frame_view.tiles_y = 2;
     for (MlUint y = 0; y < 40; ++y)
-        for (MlUint x = 0; x < 70; ++x)
-            ASSERT_EQ(walk_at(buffers, 3, x, y).lights, (std::vector<MlUint>{x % 24 * 2 / 3, 16 + y % 24 * 2 / 3}));
+        for (MlUint x = 0; x < 70; ++x) {
+            const MlUint tile = 100 * (y / 24 * 3 + x / 24);
+            ASSERT_EQ(walk_at(buffers, 3, x, y).lights,
+                      (std::vector<MlUint>{tile + x % 24 * 2 / 3, tile + 16 + y % 24 * 2 / 3}));
+        }
 }
 
 TEST(Windows, CountersCountHeadersEntriesAndWhatIsCompared) {
