@@ -75,8 +75,9 @@ ManylightsReport check(Frame& frame, std::uint32_t light_count = kLights) {
     return validate(builder.get(), frame, light_count);
 }
 
-void expect_refusal(Frame frame, const std::string& field, const std::string& rule, std::uint64_t index) {
-    const ManylightsReport report = check(frame);
+void expect_refusal(Frame frame, const std::string& field, const std::string& rule, std::uint64_t index,
+                    std::uint32_t light_count = kLights) {
+    const ManylightsReport report = check(frame, light_count);
     EXPECT_EQ(report.status, MANYLIGHTS_DAMAGED) << rule;
     EXPECT_EQ(report.field, field) << report.rule;
     EXPECT_NE(std::string(report.rule).find(rule), std::string::npos) << report.rule << " instead of: " << rule;
@@ -179,13 +180,13 @@ TEST(ValidateWindows, RefusesDamagedEntries) {
         {"cells", order, 14, [](Frame& f) { f.cells[14].first += 1; }},         // slice 0 begins late
         {"cells", order, 15, [](Frame& f) { f.cells[15].first = 50; }},         // ends before it begins
         {"cells", order, 15, [](Frame& f) { f.cells[14].count += 49u << 16; }}, // the next ends earlier
-        {"cells", order, 15, [](Frame& f) { f.cells[15].first &= ~0xFFFFu; }},  // begins before the one before
+        {"cells", order, 15, [](Frame& f) { f.cells[15].count &= ~0xFFFFu; }},  // begins before the one before
         {"cells", order, 17, [](Frame& f) { f.cells[17].first |= 49u; }},       // a gap
         {"cells", order, 19, [](Frame& f) { f.cells[19].count -= 1; }},         // large ones begin among small ones
         {"cells", order, 22, [](Frame& f) { f.cells[22].count = 39u | 39u << 16; }}, // a gap among large ones
         {"cells", "the word behind an odd number of entries must be 0", 18, [](Frame& f) { f.cells[18].count = 1; }},
-        {"cells", "the end of the tile before", 4, [](Frame& f) { f.cells[18].first -= 1u << 16; }},
-        {"cells", "the end of the tile before", 6, [](Frame& f) { f.cells[26].count -= 1u << 16; }},
+        {"references", "light twice", 50, [](Frame& f) { f.cells[18].first += 1u << 16; }},
+        {"references", "light twice", 90, [](Frame& f) { f.cells[26].count += 1u << 16; }},
     });
     Frame empty = frame_of({made_tile(1, {4, 0, 0, 1, 0, 0, 0})});
     empty.cells[2] = {0, 0};
@@ -232,7 +233,7 @@ TEST(ValidateWindows, WideTilesAreThoseOfMoreThan65535References) {
             const ManylightsReport report = check(frame, count);
             EXPECT_EQ(report.status, MANYLIGHTS_OK) << report.rule << ", " << report.index;
             frame.references[2 * 65000] = frame.references[2 * 3];
-            expect_refusal(frame, "references", "less than light_count", 65000);
+            expect_refusal(frame, "references", "light twice", 65000, count);
         }
 }
 
