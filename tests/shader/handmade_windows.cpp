@@ -67,12 +67,18 @@ bool in_modular_depth(const MadeReference& r, MlUint code, MlUint shift) {
     return (distance + 256) % 256 <= r.high / unit - r.low / unit;
 }
 
+// Of the tile's references in slice order: all of a flat tile, none outside of the slices.
+Range range_of(const MadeTile& tile, const std::vector<MadeReference>& references, MlUint code) {
+    if (code < tile.base_code || slice_of(tile, code) > tile.form.last_slice) return {0, 0};
+    if (tile.form.flat_count != 0) return {0, static_cast<MlUint>(references.size())};
+    return window_of(tile, references, slice_of(tile, code));
+}
+
 void append_candidates(const MadeTile& tile, const std::vector<MadeReference>& from, MlUint shift, MlUint code,
                        MlUint x, MlUint y, std::vector<MlUint>& lights) {
     const std::vector<MadeReference> references = in_slice_order(tile, from);
-    const Range all{0, static_cast<MlUint>(references.size())};
-    const Range window = tile.form.flat_count != 0 ? all : window_of(tile, references, slice_of(tile, code));
-    for (MlUint i = window.first; i < window.last; ++i)
+    const Range range = range_of(tile, references, code);
+    for (MlUint i = range.first; i < range.last; ++i)
         if (in_modular_depth(references[i], code, shift) && in_rectangle(references[i], x, y))
             lights.push_back(references[i].light);
 }
@@ -99,10 +105,15 @@ void append_tiles(const std::vector<MadeTile>& tiles, std::vector<MlCell>& cells
 
 std::vector<MlUint> candidates(const MadeTile& tile, MlUint code, MlUint x, MlUint y) {
     std::vector<MlUint> lights;
-    if (code < tile.base_code || slice_of(tile, code) > tile.form.last_slice) return lights;
     append_candidates(tile, tile.small, tile.form.small_shift, code, x, y, lights);
     append_candidates(tile, tile.large, tile.form.large_shift, code, x, y, lights);
     return lights;
+}
+
+MlUint compared(const MadeTile& tile, MlUint code) {
+    const Range small = range_of(tile, in_slice_order(tile, tile.small), code);
+    const Range large = range_of(tile, in_slice_order(tile, tile.large), code);
+    return small.last - small.first + large.last - large.first;
 }
 
 std::vector<MlUint> holders(const MadeTile& tile, MlUint code, MlUint x, MlUint y) {

@@ -31,6 +31,9 @@ void append_tiles(const std::vector<MadeTile>& tiles, std::vector<MlCell>& cells
 /// The lights that the query must hand out in a tile for a depth code at (x, y), in order, by divisions and loops.
 std::vector<MlUint> candidates(const MadeTile& tile, MlUint code, MlUint x, MlUint y);
 
+/// How many references the query must compare for a depth code, found or not.
+MlUint compared(const MadeTile& tile, MlUint code);
+
 /// The lights that hold the depth code and the place, in order: none of them may be missing among the candidates.
 std::vector<MlUint> holders(const MadeTile& tile, MlUint code, MlUint x, MlUint y);
 

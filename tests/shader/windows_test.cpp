@@ -76,6 +76,7 @@ void expect_rule(HandmadeBuffers& buffers, const MadeTile& tile, MlUint code, co
         const Walk result = walk_at(buffers, code, pixel, 15 - pixel);
         ASSERT_EQ(result.lights, candidates(tile, code, pixel, 15 - pixel)) << what << ", code " << code;
         ASSERT_TRUE(has_all(result.lights, holders(tile, code, pixel, 15 - pixel))) << what << ", code " << code;
+        ASSERT_EQ(result.references, compared(tile, code)) << what << ", code " << code;
     }
 }
 
@@ -136,6 +137,7 @@ TEST(Windows, TilesOfVeryManyReferencesKeepAllBitsOfTheirWindows) {
             const MlUint code = tile.base_code + (slice << 5) + random.below(32);
             const Walk result = walk_at(buffers, code, 5, 6);
             EXPECT_EQ(result.lights, candidates(tile, code, 5, 6)) << kind.name;
+            EXPECT_EQ(result.references, compared(tile, code)) << kind.name;
             EXPECT_TRUE(std::ranges::any_of(result.lights, [=](MlUint light) { return light > 7 * (count - 4000); }));
         }
         EXPECT_EQ(buffers.reads_outside, 0);
