@@ -18,10 +18,10 @@ constexpr std::uint64_t kHeaderCells = sizeof(MlTile) / sizeof(MlCell);
 
 // One light in one tile, narrowed. Decided once, in plan; write replays it.
 struct WindowRecord {
-    std::uint32_t light; // the caller's index
+    std::uint32_t light;     // the caller's index
     std::uint32_t near_bits; // depth code 24 bits, x0 4 bits, x1 4 bits
     std::uint32_t far_bits;  // depth code 24 bits, y0 4 bits, y1 4 bits
-    std::uint32_t tile;  // of all views
+    std::uint32_t tile;      // of all views
 
     std::uint32_t near_code() const { return near_bits & ML_DEPTH_CODE_MAX; }
     std::uint32_t far_code() const { return far_bits & ML_DEPTH_CODE_MAX; }
@@ -50,11 +50,11 @@ struct WindowView {
 
 struct Windows {
     WindowView views[kMaxViews];
-    Array<TileWedge> wedges;        // of one view: its columns, then its rows
-    Array<TileCut> rows;            // of one light
-    Array<std::uint32_t> offsets;   // tile count + 2, as in fill_bins: the references of tile t begin at offsets[t]
-    Array<WindowRecord> found;      // in order of views and lights; in the end by tile, as they are written
-    Array<WindowRecord> by_tile;    // the same, by tile, in order of lights
+    Array<TileWedge> wedges;      // of one view: its columns, then its rows
+    Array<TileCut> rows;          // of one light
+    Array<std::uint32_t> offsets; // tile count + 2, as in fill_bins: the references of tile t begin at offsets[t]
+    Array<WindowRecord> found;    // in order of views and lights; in the end by tile, as they are written
+    Array<WindowRecord> by_tile;  // the same, by tile, in order of lights
     Array<WindowTile> tiles;
     std::uint64_t empty_tiles, flat_tiles;
 

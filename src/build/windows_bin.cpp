@@ -54,13 +54,8 @@ class Recorder {
 
   private:
     AxisSpan span(int axis, const TileWedge* wedges, const VisibleLight& light, const ViewSphere& sphere) const {
-        return {wedges,
-                grid_.tile_px,
-                light.first_px[axis],
-                light.last_px[axis],
-                sphere.center[axis],
-                sphere.center[2],
-                sphere.radius};
+        return {wedges,           grid_.tile_px, light.first_px[axis], light.last_px[axis], sphere.center[axis],
+                sphere.center[2], sphere.radius};
     }
 
     // The range is clipped to the planes between which points are promised anything, and then widened by what a
@@ -144,8 +139,8 @@ float choose_depth_scale(const VisibleLight* lights, std::uint64_t count) {
     return std::bit_cast<float>(static_cast<std::uint32_t>(exponent + 127) << 23);
 }
 
-bool bin_windows(const Grid* grids, const View* views, std::uint32_t view_count, std::uint64_t limit,
-                 Windows& windows, bool& fits) {
+bool bin_windows(const Grid* grids, const View* views, std::uint32_t view_count, std::uint64_t limit, Windows& windows,
+                 bool& fits) {
     const Grid& last = grids[view_count - 1];
     const std::uint64_t tile_count = last.cell_offset + last.cell_count;
     if (!windows.offsets.resize(tile_count + 2)) return false;

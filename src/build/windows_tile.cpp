@@ -57,7 +57,8 @@ std::uint64_t checks_of(const Classes& classes) {
            static_cast<std::uint64_t>(classes.large_count) * classes.large_extent;
 }
 
-// The split with the fewest checks, if it saves two of them on average; its second word per slice costs as much to read.
+// The split with the fewest checks, if it saves two of them on average; its second word per slice costs as much to
+// read.
 Classes choose_classes(const Extents& extents) {
     const Classes together = split_at(extents, kExtentBits);
     const std::uint64_t depth = extents.last_code - extents.base_code + 1;
