@@ -312,6 +312,19 @@ TEST_F(TechniquesTest, tiles_of_windows_are_of_the_size_asked_for) {
     EXPECT_EQ(references_with({{"tile_size", "32"}}), references_with({})) << "the library's choice for few lights";
 }
 
+// Few lights in small tiles: where one affects a point there is a list, and elsewhere are tiles without any.
+TEST_F(TechniquesTest, tiles_of_windows_without_lights_have_no_class) {
+    const View view = made_view(device(), 97, 60, 5);
+    const std::vector<PixelRecord> truth = records_of(device(), kBruteForce, view.frame());
+    const std::unique_ptr<Technique> technique = make_technique(device(), "depth_windows", {{"tile_size", "8"}});
+    technique->prepare(view.frame());
+    const std::vector<CellClass> classes = technique->classify(view.frame());
+    EXPECT_GT(std::ranges::count(classes, CellClass::none), 100);
+    EXPECT_GT(summarize(truth).affecting_mean, 0.0);
+    for (std::size_t pixel = 0; pixel < classes.size(); ++pixel)
+        ASSERT_TRUE(truth[pixel].affecting == 0 || classes[pixel] == CellClass::list) << "pixel " << pixel;
+}
+
 // Figure 3 of Tiled Light Trees: a class per tile.
 TEST_F(TechniquesTest, classes_are_those_of_the_cells_that_pixels_walk) {
     const View view = made_view(device(), 97, 60, 1500);
