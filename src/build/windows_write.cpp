@@ -26,7 +26,7 @@ ClassRange large_class(const WindowTile& tile, std::uint32_t count) {
 
 // The references of a class ascend by the slice of their near end. The window of slice s ends behind the last one that
 // begins in s or before, and begins with the first one of all that ends in s or behind: what is before that one ends
-// before s. Where nothing reaches s the window is empty.
+// before s. Where nothing reaches s the window is empty: the next one to begin ends behind s, so first is last.
 void find_windows(const WindowTile& tile, const WindowRecord* records, const ClassRange& range, ClassWindows& windows) {
     const std::uint32_t slices = tile.form.last_slice + 1;
     std::fill_n(windows.first, slices, range.end);
@@ -41,7 +41,6 @@ void find_windows(const WindowTile& tile, const WindowRecord* records, const Cla
     for (std::uint32_t s = 0; s < slices; ++s) {
         last = std::max(last, windows.last[s]);
         windows.last[s] = last;
-        windows.first[s] = std::min(windows.first[s], last);
     }
 }
 
