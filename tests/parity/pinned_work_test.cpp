@@ -35,18 +35,22 @@ constexpr PinnedWork kPinnedWork[] = {
     {"canyon", "clustered", {37188, 0, 37188, 4096, 10849, 45064}},
     {"canyon", "tiled_light_trees", {26807, 23596, 26807, 4096, 6561, 99948}},
     {"canyon", "hybrid_light_trees", {28346, 5358, 28346, 4096, 10849, 116808}},
+    {"canyon", "depth_windows", {8288, 970, 25665, 4096, 6490, 66064}},
     {"citadel", "brute_force", {1110016, 0, 0, 4096, 0, 0}},
     {"citadel", "clustered", {12570, 0, 12570, 3195, 12654, 52284}},
     {"citadel", "tiled_light_trees", {9947, 9867, 9947, 3195, 7688, 130056}},
     {"citadel", "hybrid_light_trees", {10353, 1303, 10353, 3195, 12654, 167484}},
+    {"citadel", "depth_windows", {4205, 542, 9407, 3195, 7545, 62904}},
     {"bars", "brute_force", {2093056, 0, 0, 4096, 0, 0}},
     {"bars", "clustered", {37737, 0, 37737, 3250, 12893, 53240}},
     {"bars", "tiled_light_trees", {29393, 24489, 29393, 3250, 6331, 101076}},
     {"bars", "hybrid_light_trees", {30999, 5327, 30999, 3250, 12893, 145512}},
+    {"bars", "depth_windows", {8395, 1022, 26439, 3250, 6153, 51432}},
     {"cornell", "brute_force", {1183744, 0, 0, 4096, 0, 0}},
     {"cornell", "clustered", {87725, 0, 87725, 4096, 7941, 33432}},
     {"cornell", "tiled_light_trees", {43382, 30975, 43382, 4096, 5351, 86916}},
     {"cornell", "hybrid_light_trees", {42853, 29879, 42853, 4096, 7941, 121640}},
+    {"cornell", "depth_windows", {5673, 578, 54753, 4096, 5326, 44136}},
 };
 
 class PinnedWorkTest : public TechniquesTest, public testing::WithParamInterface<PinnedWork> {};
