@@ -118,7 +118,9 @@ typedef enum ManylightsStructure {
         1, /* a list per cell of a tile x slice grid: practical clustered shading, Persson 2013 */
     MANYLIGHTS_STRUCTURE_TREES =
         2, /* a light tree per tile: O'Donnell and Chajdas, Tiled Light Trees, 2017, sections 3.1-3.2 */
-    MANYLIGHTS_STRUCTURE_HYBRID = 3 /* per cell a list or a light tree: the same paper, section 3.3 */
+    MANYLIGHTS_STRUCTURE_HYBRID = 3, /* per cell a list or a light tree: the same paper, section 3.3 */
+    MANYLIGHTS_STRUCTURE_WINDOWS = 4 /* depth windows: per tile a run of its depth-sorted lights for each depth slice;
+                                        slice_edges and nodes are empty */
 } ManylightsStructure;
 
 typedef void* (*ManylightsAllocate)(void* user, size_t bytes, size_t alignment); /* null: out of memory */
@@ -131,7 +133,9 @@ typedef void (*ManylightsParallelFor)(void* user, uint32_t count, ManylightsTask
 typedef struct ManylightsSettings {
     size_t size;                 /* sizeof(ManylightsSettings) */
     uint32_t structure;          /* a ManylightsStructure */
-    uint32_t tile_px;            /* edge of a tile in pixels, [8, 65536]; default 48 */
+    uint32_t tile_px;            /* edge of a tile in pixels, [8, 65536]; default 48. Windows: chosen for each plan, 32
+                                    (24 from 500,000 visible lights), doubled while a light has more than 12
+                                    references on average */
     uint32_t slice_count;        /* depth slices of lists and hybrid, [1, 128]; default 16 */
     uint32_t leaf_size;          /* most lights in a tree's leaf, [1, 65535]; default 4 */
     float slice_near;            /* end of the first slice, > 0; default 5 */
@@ -151,7 +155,7 @@ typedef struct ManylightsSizes {
     uint64_t slice_edges; /* float, slice_count + 1 per view */
     uint64_t cells;       /* MlCell */
     uint64_t nodes;       /* MlNode */
-    uint64_t references;  /* uint32 light index */
+    uint64_t references;  /* uint32 light index; windows: two words per reference */
 } ManylightsSizes;
 
 /* Where to write. Each pointer must hold the planned size, aligned to 16; null only where that size is 0. The memory
@@ -168,11 +172,11 @@ typedef struct ManylightsBuffers {
 typedef struct ManylightsStats {
     uint64_t bytes;      /* sum of ManylightsSizes */
     uint64_t references; /* (light, cell) pairs */
-    uint64_t nodes;      /* tree nodes, padding included */
-    uint64_t cells;
+    uint64_t nodes;      /* tree nodes, padding included; none in windows */
+    uint64_t cells;      /* windows: tiles */
     uint64_t empty_cells;
-    uint64_t list_cells; /* not empty, and a plain list (or a tree of one leaf) */
-    uint64_t tree_cells;
+    uint64_t list_cells;     /* not empty, and a plain list (or a tree of one leaf); windows: tiles without a table */
+    uint64_t tree_cells;     /* windows: tiles with a table */
     uint64_t visible_lights; /* sum over the views */
     uint64_t ignored_lights; /* non-finite or negative */
     uint64_t first_ignored;  /* index of the first of them; 0 where none */

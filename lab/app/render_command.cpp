@@ -64,8 +64,8 @@ bool measures_work(const RenderArguments& arguments) {
 std::vector<CellClass> classes_of(Technique& technique, const Frame& frame) {
     std::vector<CellClass> classes = technique.classify(frame);
     if (classes.empty())
-        throw InputError(fmt::format("--view structure: {} has no cells; clustered, tiled_light_trees and "
-                                     "hybrid_light_trees have",
+        throw InputError(fmt::format("--view structure: {} has no cells; clustered, tiled_light_trees, "
+                                     "hybrid_light_trees and depth_windows have",
                                      technique.info().name));
     return classes;
 }

@@ -62,7 +62,8 @@ Plan plan_of(const SuiteOptions& options) {
     return plan;
 }
 
-// The settings that Tiled Light Trees was measured with (section 4.2), for its structures and its baseline alike.
+// The settings that Tiled Light Trees was measured with (section 4.2), for its structures and its baseline alike;
+// others are as they are by default.
 OptionValues options_of(const std::string& technique) {
     OptionValues options{{"tile_size", "48"}};
     if (technique == "clustered" || technique == "hybrid_light_trees") options.emplace_back("slice_count", "16");

@@ -12,10 +12,22 @@ MlNode touched_node(uint i) {
     return ml_node_from_words(nodes.d[i]);
 }
 
+// Cells count where they are read instead of nodes: the headers and entries of windows, two to a unit of 16 bytes.
+MlCell touched_cell(uint i) {
+    if (views.d[0].structure == ML_STRUCTURE_WINDOWS) touch_node(i >> 1u);
+    return cells.d[i];
+}
+
+// The second word of a reference of windows is what a point is compared with.
+uint touched_reference(uint i) {
+    if (views.d[0].structure == ML_STRUCTURE_WINDOWS && (i & 1u) != 0u) touch_check(i >> 1u);
+    return references.d[i];
+}
+
 #define ML_SLICE_EDGE(i) slice_edges.d[i]
-#define ML_CELL(i) cells.d[i]
+#define ML_CELL(i) touched_cell(i)
 #define ML_NODE(i) touched_node(i)
-#define ML_REFERENCE(i) references.d[i]
+#define ML_REFERENCE(i) touched_reference(i)
 #include <manylights/query.h>
 
 void main() {

@@ -27,6 +27,17 @@ CellClass class_of(const HostStructure& structure, const MlCell& cell) {
     return ml_node_is_leaf(structure.nodes[cell.first].bits) ? CellClass::list : CellClass::tree;
 }
 
+// A tile of windows counts as a list: where it has references, in whatever depth.
+CellClass class_at(Query& query, std::size_t tile, std::size_t pixel, float depth) {
+    const HostStructure& structure = query.structure;
+    const MlView& view = structure.view;
+    if (view.structure != ML_STRUCTURE_WINDOWS)
+        return class_of(structure, structure.cells[query.ml_cell_index(view, pixel_center(view, pixel), depth)]);
+    const std::size_t header = view.cell_offset + 2 * tile;
+    const bool is_empty = ml_tile_from_cells(structure.cells[header], structure.cells[header + 1]).form == 0;
+    return is_empty ? CellClass::none : CellClass::list;
+}
+
 CellClass joined(CellClass a, CellClass b) {
     if (a == CellClass::none) return b;
     return b == CellClass::none || b == a ? a : CellClass::mixed;
@@ -37,10 +48,12 @@ std::optional<std::uint64_t> affecting_reference_of(Query& query, std::size_t pi
     const MlFloat3 position{point.position.x, point.position.y, point.position.z};
     const MlView& view = query.structure.view;
     Query::MlCursor cursor = query.ml_begin(view, pixel_center(view, pixel), point.depth);
+    const std::uint64_t words = view.structure == ML_STRUCTURE_WINDOWS ? 2 : 1;
     MlUint light = 0;
     while (query.ml_next(cursor, light)) {
         const glm::vec4& sphere = lights.spheres[light];
-        if (ml_affects(position, {sphere.x, sphere.y, sphere.z}, sphere.w)) return cursor.reference - 1u;
+        if (ml_affects(position, {sphere.x, sphere.y, sphere.z}, sphere.w))
+            return std::uint64_t{cursor.reference - 1u} * words;
     }
     return std::nullopt;
 }
@@ -62,9 +75,8 @@ std::vector<CellClass> classify_tiles(const HostStructure& structure, std::span<
     std::vector<CellClass> tiles(std::size_t{view.tiles_x} * view.tiles_y, CellClass::none);
     for (std::size_t pixel = 0; pixel < points.size(); ++pixel) {
         if (points[pixel].depth == 0.0f) continue;
-        const MlUint cell = query.ml_cell_index(view, pixel_center(view, pixel), points[pixel].depth);
         CellClass& tile = tiles[tile_of(pixel)];
-        tile = joined(tile, class_of(structure, structure.cells[cell]));
+        tile = joined(tile, class_at(query, tile_of(pixel), pixel, points[pixel].depth));
     }
     std::vector<CellClass> classes(points.size());
     for (std::size_t pixel = 0; pixel < points.size(); ++pixel) classes[pixel] = tiles[tile_of(pixel)];

@@ -23,11 +23,11 @@ struct HostStructure {
 };
 
 /// Per pixel: what the shaded pixels of its tile walk, as figure 3 of Tiled Light Trees colours tiles. Cells without
-/// lights do not count.
+/// lights do not count; a tile of windows is a list.
 std::vector<CellClass> classify_tiles(const HostStructure& structure, std::span<const PointPosition> points);
 
-/// A reference, by its index, to a light that affects a shaded point, as the point's own cursor finds it. Empty where
-/// no light affects any point.
+/// A reference, by the index of the word that names its light, to a light that affects a shaded point, as the point's
+/// own cursor finds it. Empty where no light affects any point.
 std::optional<std::uint64_t> find_affecting_reference(const HostStructure& structure,
                                                       std::span<const PointPosition> points, const LightStream& lights);
 

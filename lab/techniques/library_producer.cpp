@@ -26,6 +26,8 @@ std::uint32_t structure_of(StructureKind kind) {
         return MANYLIGHTS_STRUCTURE_LISTS;
     case StructureKind::trees:
         return MANYLIGHTS_STRUCTURE_TREES;
+    case StructureKind::windows:
+        return MANYLIGHTS_STRUCTURE_WINDOWS;
     case StructureKind::hybrid:
         break;
     }

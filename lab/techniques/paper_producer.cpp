@@ -19,9 +19,11 @@ paper::Structure structure_of(StructureKind kind) {
     case StructureKind::trees:
         return paper::Structure::tree;
     case StructureKind::hybrid:
+        return paper::Structure::hybrid;
+    case StructureKind::windows:
         break;
     }
-    return paper::Structure::hybrid;
+    throw std::invalid_argument("the paper's pipeline: no depth windows");
 }
 
 paper::Options paper_options(const StructureOptions& options, const SliceRange& slices) {

@@ -16,8 +16,8 @@ constexpr const char* kSortKeys[] = {"centre", "near"};
 // In the order of paper::Heuristic: "e" always makes trees, "lists" never does.
 constexpr const char* kHeuristics[] = {"a", "b", "c", "d", "e", "lists"};
 
-bool has_slices(StructureKind kind) { return kind != StructureKind::trees; }
-bool has_trees(StructureKind kind) { return kind != StructureKind::lists; }
+bool has_slices(StructureKind kind) { return kind == StructureKind::lists || kind == StructureKind::hybrid; }
+bool has_trees(StructureKind kind) { return kind == StructureKind::trees || kind == StructureKind::hybrid; }
 
 // The paper's switches: the library has one setting of each.
 void refuse_papers_switches(const TechniqueInfo& info, const OptionReader& reader) {
@@ -28,6 +28,8 @@ void refuse_papers_switches(const TechniqueInfo& info, const OptionReader& reade
 } // namespace
 
 std::vector<OptionInfo> structure_option_infos(StructureKind kind) {
+    if (kind == StructureKind::windows)
+        return {{"tile_size", "edge of a tile in pixels", "8 to 4096, default the library's choice for the lights"}};
     std::vector<OptionInfo> infos{{"tile_size", "edge of a tile in pixels", "8 to 4096, default 48"}};
     if (has_slices(kind)) {
         infos.push_back({"slice_count", "depth slices", "1 to 128, default 16"});
@@ -52,6 +54,7 @@ StructureOptions read_structure_options(const TechniqueInfo& info, StructureKind
     const OptionReader reader(info, values);
     StructureOptions options;
     options.kind = kind;
+    if (kind == StructureKind::windows) options.tile_size = 0;
     options.tile_size = reader.whole_number("tile_size", options.tile_size, 8, 4096);
     options.slice_count = reader.whole_number("slice_count", options.slice_count, 1, 128);
     options.leaf_size = reader.whole_number("leaf_size", options.leaf_size, 1, 65535);

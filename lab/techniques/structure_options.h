@@ -6,13 +6,13 @@
 
 namespace manylights::lab {
 
-enum class StructureKind { lists, trees, hybrid };
+enum class StructureKind { lists, trees, hybrid, windows };
 enum class ProducerKind { library, paper };
 
 struct StructureOptions {
     StructureKind kind = StructureKind::hybrid;
     ProducerKind producer = ProducerKind::library;
-    std::uint32_t tile_size = 48;
+    std::uint32_t tile_size = 48; ///< 0: the producer's choice, of windows only
     std::uint32_t slice_count = 16;
     std::uint32_t leaf_size = 4;
     std::optional<float> slice_near, slice_far;                         ///< empty: by the scene, see slice_range

@@ -1,6 +1,6 @@
 #pragma once
 // A technique whose structure has the library's format: a producer on the CPU, the common shading pass with the
-// library's query. The three techniques of this kind differ in their options and in what the producer builds.
+// library's query. The techniques of this kind differ in their options and in what the producer builds.
 
 #include "lab/techniques/shading_pass.h"
 #include "lab/techniques/structure_buffers.h"
@@ -33,7 +33,7 @@ class StructureTechnique : public Technique {
     ShadingPass pass_;
 };
 
-/// What the infos of the three have in common: no depth needed, every kind of surface served.
+/// What their infos have in common: no depth needed, every kind of surface served.
 TechniqueInfo structure_technique_info(const char* name, const char* summary, StructureKind kind);
 
 } // namespace manylights::lab

@@ -22,14 +22,21 @@
 #endif
 
 struct MlCursor {
-    MlUint reference; // the next one of the current leaf or list
+    MlUint reference; // the next one of the current leaf, list or window
     MlUint reference_end;
-    MlUint node; // the next one of the current cell
+    MlUint
+        node; // the next one of the current cell; windows: the first of the large references, until these are current
     MlUint node_end;
     float depth;
+    MlUint structure;
+    MlUint depth_code;  // of windows, like all that follow
+    MlUint shift;       // of the current references' depths
+    MlUint large_shift; // of those that come after them
+    MlUint step_x;      // where in the tile
+    MlUint step_y;
 #if defined(ML_COUNTERS)
     MlUint tested;     // lights handed out
-    MlUint nodes;      // nodes read
+    MlUint nodes;      // nodes read; windows: headers and entries
     MlUint references; // references read
 #endif
 };
@@ -64,25 +71,99 @@ ML_FN MlUint ml_cell_index(ML_IN(MlView) view, MlFloat2 position, float depth) {
     return view.cell_offset + (slice * view.tiles_y + tile_y) * view.tiles_x + tile_x;
 }
 
-ML_FN MlCursor ml_begin(ML_IN(MlView) view, MlFloat2 position, float depth) {
-    MlCell cell = ML_CELL(ml_cell_index(view, position, depth));
+ML_FN void ml_begin_cell(ML_IN(MlView) view, MlFloat2 position, ML_INOUT(MlCursor) cursor) {
+    MlCell cell = ML_CELL(ml_cell_index(view, position, cursor.depth));
     bool is_list = view.structure == ML_STRUCTURE_LISTS;
-    MlCursor cursor;
     cursor.reference = is_list ? cell.first : 0u;
     cursor.reference_end = is_list ? cell.first + cell.count : 0u;
     cursor.node = is_list ? 0u : cell.first;
     cursor.node_end = is_list ? 0u : cell.first + cell.count;
-    cursor.depth = depth;
+}
+
+// The window of a slice, relative to the tile's first reference.
+ML_FN MlWindow ml_read_window(ML_IN(MlTile) tile, ML_IN(MlTileForm) form, MlUint slice) {
+    MlWindow window;
+    window.small_first = window.large_first = window.large_last = 0u;
+    window.small_last = form.flat_count;
+    if (form.flat_count != 0u) return window;
+    MlUint index = tile.first_entry + ml_entry_cell(form, slice);
+    MlCell first = ML_CELL(index);
+    MlCell second = first;
+    if ((form.two_classes & form.wide) != 0u) second = ML_CELL(index + 1u);
+    return ml_window_from_cells(form, slice, first, second);
+}
+
+// Windows: one header and one entry. Nothing is walked before the tile's first slice or behind its last.
+ML_FN void ml_begin_tile(ML_IN(MlView) view, MlFloat2 position, ML_INOUT(MlCursor) cursor) {
+    MlUint x = ml_pixel(position.x, view.width), y = ml_pixel(position.y, view.height);
+    MlUint header = view.cell_offset + 2u * (y / view.tile_px * view.tiles_x + x / view.tile_px);
+    MlTile tile = ml_tile_from_cells(ML_CELL(header), ML_CELL(header + 1u));
 #if defined(ML_COUNTERS)
-    cursor.tested = 0u;
-    cursor.nodes = 0u;
-    cursor.references = 0u;
+    cursor.nodes += 1u;
 #endif
+    MlTileForm form = ml_tile_form(tile.form);
+    MlUint code = ml_depth_code(cursor.depth, view.depth_scale);
+    MlUint slice = (code - tile.base_code) >> form.slice_shift;
+    if (tile.form == 0u || code < tile.base_code || slice > form.last_slice) return;
+    MlWindow window = ml_read_window(tile, form, slice);
+#if defined(ML_COUNTERS)
+    if (form.flat_count == 0u) cursor.nodes += 1u;
+#endif
+    cursor.reference = tile.first_reference + window.small_first;
+    cursor.reference_end = tile.first_reference + window.small_last;
+    cursor.node = tile.first_reference + window.large_first;
+    cursor.node_end = tile.first_reference + window.large_last;
+    cursor.depth_code = code;
+    cursor.shift = form.small_shift;
+    cursor.large_shift = form.large_shift;
+    cursor.step_x = ml_tile_step(x % view.tile_px, view.tile_px);
+    cursor.step_y = ml_tile_step(y % view.tile_px, view.tile_px);
+}
+
+ML_FN MlCursor ml_begin(ML_IN(MlView) view, MlFloat2 position, float depth) {
+    MlCursor cursor;
+    cursor.reference = cursor.reference_end = cursor.node = cursor.node_end = 0u;
+    cursor.depth = depth;
+    cursor.structure = view.structure;
+    cursor.depth_code = cursor.shift = cursor.large_shift = cursor.step_x = cursor.step_y = 0u;
+#if defined(ML_COUNTERS)
+    cursor.tested = cursor.nodes = cursor.references = 0u;
+#endif
+    if (view.structure == ML_STRUCTURE_WINDOWS)
+        ml_begin_tile(view, position, cursor);
+    else
+        ml_begin_cell(view, position, cursor);
     return cursor;
+}
+
+// Windows: a reference's bounds are read first; its light only where they hold the depth and the pixel.
+ML_FN bool ml_next_in_windows(ML_INOUT(MlCursor) cursor, ML_OUT(MlUint) light) {
+    light = 0u;
+    while (cursor.reference != cursor.reference_end || cursor.node != cursor.node_end) {
+        if (cursor.reference == cursor.reference_end) {
+            cursor.reference = cursor.node;
+            cursor.reference_end = cursor.node = cursor.node_end;
+            cursor.shift = cursor.large_shift;
+        }
+        MlUint word = 2u * cursor.reference;
+        MlUint bounds = ML_REFERENCE(word + 1u);
+        cursor.reference += 1u;
+#if defined(ML_COUNTERS)
+        cursor.references += 1u;
+#endif
+        if (!ml_bounds_hold(bounds, cursor.depth_code >> cursor.shift, cursor.step_x, cursor.step_y)) continue;
+        light = ML_REFERENCE(word);
+#if defined(ML_COUNTERS)
+        cursor.tested += 1u;
+#endif
+        return true;
+    }
+    return false;
 }
 
 // The next light that may reach the point. False: there is none left.
 ML_FN bool ml_next(ML_INOUT(MlCursor) cursor, ML_OUT(MlUint) light) {
+    if (cursor.structure == ML_STRUCTURE_WINDOWS) return ml_next_in_windows(cursor, light);
     light = 0u;
     while (cursor.reference == cursor.reference_end) {
         if (cursor.node >= cursor.node_end) return false;

@@ -10,6 +10,7 @@ void hand_allocator_to_arrays(ManylightsBuilder& builder) {
     const Allocator& allocator = builder.settings.allocator;
     for (View& view : builder.views) {
         view.lights.use(allocator);
+        view.spheres.use(allocator);
         view.visible.use(allocator);
     }
     for (Array<SortItem>& items : builder.sort_items) items.use(allocator);
@@ -18,6 +19,7 @@ void hand_allocator_to_arrays(ManylightsBuilder& builder) {
     builder.bins.ranks.use(allocator);
     builder.nodes.offsets.use(allocator);
     builder.nodes.is_tree.use(allocator);
+    builder.windows.use(allocator);
     builder.heaps.use(allocator);
     builder.validate_marks.use(allocator);
 }

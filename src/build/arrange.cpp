@@ -6,8 +6,6 @@ namespace manylights::detail {
 
 namespace {
 
-enum class Fit { kFits, kOverBudget, kTooLarge, kOutOfMemory };
-
 bool sort_views(ManylightsBuilder& builder) {
     builder.sorted.clear();
     for (std::uint32_t v = 0; v < builder.view_count; ++v) {
@@ -26,17 +24,15 @@ void lay_out_views(ManylightsBuilder& builder, std::uint32_t tile_px) {
     }
     builder.counts = {};
     builder.counts.views = builder.view_count;
-    builder.counts.slice_edges = static_cast<std::uint64_t>(builder.view_count) * (builder.slices.count + 1);
     builder.counts.cells = cell_offset;
+    builder.counts.reference_words = reference_words(builder.settings.structure);
+    if (!has_windows(builder))
+        builder.counts.slice_edges = static_cast<std::uint64_t>(builder.view_count) * (builder.slices.count + 1);
 }
 
 bool is_coarsest(const ManylightsBuilder& builder) {
     return std::all_of(builder.grids, builder.grids + builder.view_count,
                        [](const Grid& grid) { return grid.tiles_x == 1 && grid.tiles_y == 1; });
-}
-
-bool within_budget(const ManylightsBuilder& builder) {
-    return total_bytes(sizes_of(builder.counts)) <= builder.settings.max_bytes;
 }
 
 // Counts and bins at the current tile size. Stops as soon as it is plain that the result will not fit, unless it has
@@ -73,31 +69,53 @@ bool prepare_tasks(ManylightsBuilder& builder) {
     return builder.heaps.resize(heap_size * builder.task_count);
 }
 
+void take_cell_stats(const ManylightsBuilder& builder, ManylightsStats& stats) {
+    if (has_windows(builder)) {
+        const Windows& windows = builder.windows;
+        stats.cells = windows.tiles.size();
+        stats.empty_cells = windows.empty_tiles;
+        stats.list_cells = windows.flat_tiles;
+        stats.tree_cells = stats.cells - windows.empty_tiles - windows.flat_tiles;
+        return;
+    }
+    stats.cells = builder.counts.cells;
+    stats.empty_cells = builder.nodes.empty_cells;
+    stats.list_cells = builder.nodes.list_cells;
+    stats.tree_cells = builder.nodes.tree_cells;
+}
+
 void take_stats(ManylightsBuilder& builder, bool over_budget) {
     ManylightsStats& stats = builder.stats;
     stats.bytes = total_bytes(sizes_of(builder.counts));
     stats.references = builder.counts.references;
     stats.nodes = builder.counts.nodes;
-    stats.cells = builder.counts.cells;
-    stats.empty_cells = builder.nodes.empty_cells;
-    stats.list_cells = builder.nodes.list_cells;
-    stats.tree_cells = builder.nodes.tree_cells;
-    stats.visible_lights = builder.sorted.size();
+    take_cell_stats(builder, stats);
+    stats.visible_lights = visible_lights(builder);
     stats.tile_px = builder.grids[0].tile_px;
     stats.over_budget = over_budget ? 1 : 0;
 }
 
 } // namespace
 
+bool within_budget(const ManylightsBuilder& builder) {
+    return total_bytes(sizes_of(builder.counts)) <= builder.settings.max_bytes;
+}
+
+std::uint64_t visible_lights(const ManylightsBuilder& builder) {
+    std::uint64_t sum = 0;
+    for (std::uint32_t v = 0; v < builder.view_count; ++v) sum += builder.views[v].lights.size();
+    return sum;
+}
+
 // Over budget is coarser, never wrong: the tiles double until the bytes fit, or one tile covers every image.
 Outcome arrange(ManylightsBuilder& builder) {
-    if (!sort_views(builder)) return out_of_memory("lights");
+    if (!has_windows(builder) && !sort_views(builder)) return out_of_memory("lights");
     Fit fit = Fit::kTooLarge;
-    if (builder.sorted.size() <= builder.most_elements) {
-        for (std::uint32_t tile_px = builder.settings.tile_px;; tile_px *= 2) {
+    if (visible_lights(builder) <= builder.most_elements) {
+        for (std::uint32_t tile_px = first_tile_px(builder);; tile_px *= 2) {
             lay_out_views(builder, tile_px);
             const bool coarsest = is_coarsest(builder);
-            fit = bin_views(builder, coarsest);
+            fit = has_windows(builder) ? arrange_windows(builder, coarsest) : bin_views(builder, coarsest);
             if (coarsest || fit == Fit::kFits || fit == Fit::kOutOfMemory) break;
         }
     }

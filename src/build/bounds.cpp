@@ -71,11 +71,12 @@ PixelRange pixel_bounds(const Axis& axis, Interval slopes, double guard_px) {
     return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last), false};
 }
 
-DepthRange depth_bounds(double depth, double radius) {
+DepthRange widened_depths(Interval depths) {
     constexpr double kRelative = 0x1p-20;
-    const double low = depth - radius;
-    const double high = depth + radius;
-    return {round_down(low - std::fabs(low) * kRelative), -round_down(-(high + std::fabs(high) * kRelative))};
+    return {round_down(depths.low - std::fabs(depths.low) * kRelative),
+            -round_down(-(depths.high + std::fabs(depths.high) * kRelative))};
 }
+
+DepthRange depth_bounds(double depth, double radius) { return widened_depths({depth - radius, depth + radius}); }
 
 } // namespace manylights::detail

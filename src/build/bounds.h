@@ -26,10 +26,12 @@ struct PixelRange {
 };
 PixelRange pixel_bounds(const Axis& axis, Interval slopes, double guard_px);
 
-// [depth - radius, depth + radius], widened by the 2^-20 that a caller's depth may be off, and rounded outward.
+// Depths, widened by the 2^-20 that a caller's depth may be off, and rounded outward.
 struct DepthRange {
     float low, high;
 };
+DepthRange widened_depths(Interval depths);
+// Of [depth - radius, depth + radius].
 DepthRange depth_bounds(double depth, double radius);
 
 } // namespace manylights::detail

@@ -8,6 +8,7 @@
 #include "src/build/slices.h"
 #include "src/build/sort.h"
 #include "src/build/tree.h"
+#include "src/build/windows.h"
 #include "src/format/layout.h"
 
 struct ManylightsBuilder {
@@ -24,6 +25,7 @@ struct ManylightsBuilder {
     manylights::detail::Array<manylights::detail::VisibleLight> sorted; // of all views, one after the other
     manylights::detail::Bins bins;
     manylights::detail::CellNodes nodes;
+    manylights::detail::Windows windows;
     manylights::detail::Array<manylights::detail::DepthSpan> heaps; // one per task of write
     std::uint32_t task_count = 1;
 
@@ -35,8 +37,28 @@ struct ManylightsBuilder {
 
 namespace manylights::detail {
 
+inline bool has_windows(const ManylightsBuilder& builder) {
+    return builder.settings.structure == MANYLIGHTS_STRUCTURE_WINDOWS;
+}
+
+// What came of a tile size.
+enum class Fit { kFits, kOverBudget, kTooLarge, kOutOfMemory };
+
+bool within_budget(const ManylightsBuilder& builder);
+std::uint64_t visible_lights(const ManylightsBuilder& builder); // of all views
+
 // Sorting to node offsets: coarsens until the result fits, and fills counts and stats. The lights are culled already.
 Outcome arrange(ManylightsBuilder& builder);
+
+// Windows: the tile size to begin with, and the work at one tile size. kOverBudget also where tiles are chosen for the
+// caller and larger ones do better; has_to_do: no larger ones are left, only what no buffer can hold stops it.
+std::uint32_t first_tile_px(const ManylightsBuilder& builder);
+Fit arrange_windows(ManylightsBuilder& builder, bool has_to_do);
+
+// Windows: the parts of write.
+void write_window_views(const ManylightsBuilder& builder, const ManylightsBuffers& buffers);
+void write_window_tiles(const ManylightsBuilder& builder, std::uint64_t begin, std::uint64_t end,
+                        const ManylightsBuffers& buffers);
 
 // The buffers of the last plan, into the caller's memory.
 void write_buffers(ManylightsBuilder& builder, const ManylightsBuffers& buffers);

@@ -27,10 +27,10 @@ double largest_coordinate(const float (&p)[3]) { return std::max({std::fabs(p[0]
 
 // light.range in (0, kEverywhere].
 bool find_in_view(const ManylightsSphere& light, double motion_margin, const Slices& slices, const Camera& camera,
-                  VisibleLight& found) {
+                  VisibleLight& found, ViewSphere& sphere) {
     double relative[3]; // to the camera, by the rule that membership uses: each coordinate rounded once to float
     for (int i = 0; i < 3; ++i) relative[i] = light.center[i] - camera.position[i];
-    double center[3];
+    double(&center)[3] = sphere.center;
     for (int i = 0; i < 3; ++i) {
         const double* row = camera.rotation[i];
         center[i] = row[0] * relative[0] + row[1] * relative[1] + row[2] * relative[2];
@@ -42,6 +42,7 @@ bool find_in_view(const ManylightsSphere& light, double motion_margin, const Sli
 
     const double world_extent = std::max(largest_coordinate(light.center), camera.position_extent);
     const double radius = culling_radius(light.range, motion_margin, distance, world_extent, camera.skew);
+    sphere.radius = radius;
     const double depth = center[2];
     // Conservative: near_depth lies before the near plane, far_depth behind the far plane, radius outside the light.
     if (!(depth + radius >= camera.near_depth && depth - radius <= camera.far_depth)) return false;
@@ -88,10 +89,12 @@ double culling_radius(double range, double motion_margin, double distance, doubl
     return (reach + rounding) * (1.0 + skew) + skew * distance;
 }
 
-CullResult cull_lights(const ManylightsLights& lights, const Slices& slices, View* views, std::uint32_t view_count) {
+CullResult cull_lights(const ManylightsLights& lights, const Slices& slices, bool keeps_spheres, View* views,
+                       std::uint32_t view_count) {
     CullResult result{};
     for (std::uint32_t v = 0; v < view_count; ++v) {
         views[v].lights.clear();
+        views[v].spheres.clear();
         views[v].visible.clear();
     }
     const std::size_t stride = lights.sphere_stride != 0 ? lights.sphere_stride : sizeof(ManylightsSphere);
@@ -103,10 +106,12 @@ CullResult cull_lights(const ManylightsLights& lights, const Slices& slices, Vie
         }
         if (!(light.range > 0.0f)) continue; // strict membership: no point is nearer than 0
         VisibleLight found{};
+        ViewSphere sphere{};
         found.index = i;
         for (std::uint32_t v = 0; v < view_count; ++v) {
-            if (!find_in_view(light, lights.motion_margin, slices, views[v].camera, found)) continue;
-            if (!views[v].lights.push(found) || !views[v].visible.push(i)) {
+            if (!find_in_view(light, lights.motion_margin, slices, views[v].camera, found, sphere)) continue;
+            if (!views[v].lights.push(found) || !views[v].visible.push(i) ||
+                (keeps_spheres && !views[v].spheres.push(sphere))) {
                 result.out_of_memory = true;
                 return result;
             }

@@ -19,9 +19,16 @@ struct VisibleLight {
     std::uint8_t first_slice, last_slice;
 };
 
+// Its sphere, for stages that narrow what it covers.
+struct ViewSphere {
+    double center[3]; // along view x, view y and depth
+    double radius;    // culling_radius
+};
+
 struct View {
     Camera camera;
     Array<VisibleLight> lights;   // ascending index
+    Array<ViewSphere> spheres;    // of the lights, where they are kept
     Array<std::uint32_t> visible; // their indices, for the caller
 };
 
@@ -32,7 +39,8 @@ struct CullResult {
 };
 
 // One pass over the lights serves all views.
-CullResult cull_lights(const ManylightsLights& lights, const Slices& slices, View* views, std::uint32_t view_count);
+CullResult cull_lights(const ManylightsLights& lights, const Slices& slices, bool keeps_spheres, View* views,
+                       std::uint32_t view_count);
 
 // The radius that culling uses instead of the range. distance: of the light from the camera; world_extent: the largest
 // |world coordinate| of light and camera.

@@ -12,7 +12,7 @@ namespace manylights::detail {
 struct CellNodes {
     Array<std::uint64_t> offsets; // cell count + 1
     Array<std::uint8_t> is_tree;
-    std::uint32_t largest_tree_leaves; // of one tree
+    std::uint32_t largest_tree_leaves = 0; // of one tree
     std::uint64_t empty_cells, list_cells, tree_cells;
 };
 

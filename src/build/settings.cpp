@@ -21,7 +21,7 @@ bool positive_or_zero(float value) { return value >= 0.0f && value <= std::numer
 
 Outcome check_ranges(const ManylightsSettings& given) {
     if (given.size < sizeof(ManylightsSettings)) return invalid("settings.size", "must be sizeof(ManylightsSettings)");
-    if (given.structure > MANYLIGHTS_STRUCTURE_HYBRID)
+    if (given.structure > MANYLIGHTS_STRUCTURE_WINDOWS)
         return invalid("settings.structure", "must be a ManylightsStructure");
     if (given.tile_px != 0 && (given.tile_px < 8 || given.tile_px > kMaxPixels))
         return invalid("settings.tile_px", "must be 0 or in [8, 65536]");
@@ -46,9 +46,10 @@ Outcome resolve_settings(const ManylightsSettings* given, Settings& settings) {
     if (Outcome outcome = check_ranges(*given); !outcome.ok()) return outcome;
 
     settings.structure = or_default<std::uint32_t>(given->structure, MANYLIGHTS_STRUCTURE_HYBRID);
-    settings.tile_px = or_default(given->tile_px, 48u);
+    const bool windows = settings.structure == MANYLIGHTS_STRUCTURE_WINDOWS;
+    settings.tile_px = or_default(given->tile_px, windows ? 0u : 48u);
     settings.slice_count = or_default(given->slice_count, 16u);
-    if (settings.structure == MANYLIGHTS_STRUCTURE_TREES) settings.slice_count = 1;
+    if (windows || settings.structure == MANYLIGHTS_STRUCTURE_TREES) settings.slice_count = 1;
     settings.leaf_size = or_default(given->leaf_size, 4u);
     settings.slice_near = or_default(given->slice_near, 5.0f);
     settings.slice_far = or_default(given->slice_far, 500.0f);

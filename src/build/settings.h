@@ -10,8 +10,8 @@ namespace manylights::detail {
 
 struct Settings {
     std::uint32_t structure;
-    std::uint32_t tile_px;
-    std::uint32_t slice_count; // 1 for trees
+    std::uint32_t tile_px;     // 0: windows choose it each frame
+    std::uint32_t slice_count; // 1 for trees; windows have slices of their own
     std::uint32_t leaf_size;
     float slice_near;
     float slice_far;

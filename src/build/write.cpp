@@ -43,11 +43,12 @@ void write_views(const ManylightsBuilder& builder, const ManylightsBuffers& buff
 // What comes before this cell in all buffers together. Strictly ascending, so it cuts the cells into tasks of equal
 // work; the cut decides who writes a byte, never which byte.
 std::uint64_t work_before(const ManylightsBuilder& builder, std::uint64_t cell) {
+    if (has_windows(builder)) return kHeaderCells * cell + builder.windows.offsets[cell];
     return cell + builder.bins.begin(cell) + builder.nodes.offsets[cell];
 }
 
 std::uint64_t first_cell_of_task(const ManylightsBuilder& builder, std::uint32_t task) {
-    const std::uint64_t cells = builder.counts.cells;
+    const std::uint64_t cells = builder.stats.cells;
     const std::uint64_t target = work_before(builder, cells) / builder.task_count * task;
     if (task == builder.task_count) return cells;
     std::uint64_t low = 0;
@@ -90,6 +91,13 @@ void write_references(const ManylightsBuilder& builder, std::uint64_t begin, std
         references[i] = builder.sorted[builder.bins.ranks[i]].index;
 }
 
+void write_window_task(void* context, std::uint32_t task) {
+    const auto& job = *static_cast<const WriteJob*>(context);
+    const ManylightsBuilder& builder = *job.builder;
+    if (task == 0) write_window_views(builder, *job.buffers);
+    write_window_tiles(builder, first_cell_of_task(builder, task), first_cell_of_task(builder, task + 1), *job.buffers);
+}
+
 void write_task(void* context, std::uint32_t task) {
     const auto& job = *static_cast<const WriteJob*>(context);
     ManylightsBuilder& builder = *job.builder;
@@ -106,10 +114,11 @@ void write_task(void* context, std::uint32_t task) {
 
 void write_buffers(ManylightsBuilder& builder, const ManylightsBuffers& buffers) {
     WriteJob job = {&builder, &buffers};
+    const ManylightsTask task = has_windows(builder) ? write_window_task : write_task;
     if (builder.task_count == 1)
-        write_task(&job, 0);
+        task(&job, 0);
     else
-        builder.settings.parallel_for(builder.settings.parallel_user, builder.task_count, write_task, &job);
+        builder.settings.parallel_for(builder.settings.parallel_user, builder.task_count, task, &job);
 }
 
 } // namespace manylights::detail

@@ -31,7 +31,7 @@ MlUint pack_inner(std::uint64_t light_count, std::uint32_t skip) {
 
 ManylightsSizes sizes_of(const Counts& counts) {
     return {counts.views * sizeof(MlView), counts.slice_edges * sizeof(float), counts.cells * sizeof(MlCell),
-            counts.nodes * sizeof(MlNode), counts.references * sizeof(MlUint)};
+            counts.nodes * sizeof(MlNode), counts.references * counts.reference_words * sizeof(MlUint)};
 }
 
 std::uint64_t total_bytes(const ManylightsSizes& sizes) {

@@ -14,6 +14,7 @@ static_assert(sizeof(MlView) == 64 && sizeof(MlCell) == 8 && sizeof(MlNode) == 1
 static_assert(std::is_trivially_copyable_v<MlView> && std::is_trivially_copyable_v<MlNode>);
 static_assert(MANYLIGHTS_STRUCTURE_LISTS == ML_STRUCTURE_LISTS && MANYLIGHTS_STRUCTURE_TREES == ML_STRUCTURE_TREES &&
               MANYLIGHTS_STRUCTURE_HYBRID == ML_STRUCTURE_HYBRID);
+static_assert(sizeof(MlTile) == 2 * sizeof(MlCell));
 
 constexpr std::uint32_t kMaxViews = 8;
 constexpr std::uint32_t kMaxSlices = 128;
@@ -48,9 +49,13 @@ inline std::uint32_t list_node_count(std::uint32_t light_count) { return divide_
 MlUint pack_leaf(std::uint32_t light_count);
 MlUint pack_inner(std::uint64_t light_count, std::uint32_t skip); // the count saturates
 
+// Words per reference: windows have bounds beside the light index.
+inline std::uint32_t reference_words(std::uint32_t structure) { return structure == ML_STRUCTURE_WINDOWS ? 2 : 1; }
+
 // Elements per buffer.
 struct Counts {
     std::uint64_t views, slice_edges, cells, nodes, references;
+    std::uint32_t reference_words = 1; // of each reference
 };
 
 ManylightsSizes sizes_of(const Counts& counts);

@@ -1,5 +1,6 @@
 #include "src/format/validate.h"
 
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -24,30 +25,51 @@ Outcome count_elements(const ManylightsSizes& sizes, Counts& counts) {
     return {};
 }
 
+bool is_power_of_two(float value) {
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    return (bits & 0x807FFFFFu) == 0 && value >= 0x1p-126f && value <= 0x1p126f;
+}
+
+// How a view's tiles are cut in depth, and its cells.
+Outcome validate_grid(const MlView& view, std::uint64_t index) {
+    const std::uint64_t tiles = static_cast<std::uint64_t>(view.tiles_x) * view.tiles_y;
+    if (view.structure == ML_STRUCTURE_WINDOWS) {
+        if (view.slice_count != 0) return damaged("views", "slice_count must be 0 for windows", index);
+        if (view.cell_count < 2 * tiles) return damaged("views", "cell_count must hold two cells per tile", index);
+        if (!is_power_of_two(view.depth_scale))
+            return damaged("views", "depth_scale must be a power of two in [2^-126, 2^126]", index);
+        return {};
+    }
+    if (view.slice_count < 1 || view.slice_count > kMaxSlices ||
+        (view.structure == ML_STRUCTURE_TREES && view.slice_count != 1))
+        return damaged("views", "slice_count must be in [1, 128], and 1 for trees", index);
+    if (tiles * view.slice_count != view.cell_count)
+        return damaged("views", "cell_count must be tiles_x * tiles_y * slice_count", index);
+    if (std::bit_cast<std::uint32_t>(view.depth_scale) != 0)
+        return damaged("views", "depth_scale must be 0 without windows", index);
+    return {};
+}
+
 Outcome validate_view(const MlView& view, const MlView& first, std::uint64_t index) {
     if (view.width < 1 || view.width > kMaxPixels || view.height < 1 || view.height > kMaxPixels)
         return damaged("views", "width and height must be in [1, 65536]", index);
     if (view.tile_px < 1) return damaged("views", "tile_px must be at least 1", index);
     if (view.tiles_x != divide_up(view.width, view.tile_px) || view.tiles_y != divide_up(view.height, view.tile_px))
         return damaged("views", "tiles_x and tiles_y must cover the image", index);
-    if (view.structure < ML_STRUCTURE_LISTS || view.structure > ML_STRUCTURE_HYBRID ||
+    if (view.structure < ML_STRUCTURE_LISTS || view.structure > ML_STRUCTURE_WINDOWS ||
         view.structure != first.structure)
         return damaged("views", "structure must be a known one, the same in all views", index);
-    if (view.slice_count < 1 || view.slice_count > kMaxSlices ||
-        (view.structure == ML_STRUCTURE_TREES && view.slice_count != 1))
-        return damaged("views", "slice_count must be in [1, 128], and 1 for trees", index);
-    const std::uint64_t tiles = static_cast<std::uint64_t>(view.tiles_x) * view.tiles_y;
-    if (tiles * view.slice_count != view.cell_count)
-        return damaged("views", "cell_count must be tiles_x * tiles_y * slice_count", index);
+    if (Outcome outcome = validate_grid(view, index); !outcome.ok()) return outcome;
     if (!std::isfinite(view.slice_scale) || !std::isfinite(view.slice_bias))
         return damaged("views", "slice_scale and slice_bias must be finite", index);
-    if ((view.reserved0 | view.reserved1 | view.reserved2 | view.reserved3) != 0)
+    if ((view.reserved1 | view.reserved2 | view.reserved3) != 0)
         return damaged("views", "reserved words must be 0", index);
     return {};
 }
 
 // Edges ascend from 0 to +inf, so every depth belongs to one slice. The edges decide; scale and bias only guess.
 Outcome validate_edges(const Contents& contents, const MlView& view) {
+    if (view.structure == ML_STRUCTURE_WINDOWS) return {}; // which have none
     const float* edges = contents.slice_edges + view.slice_offset;
     if (edges[0] != 0.0f) return damaged("slice_edges", "the first edge must be 0", view.slice_offset);
     for (std::uint64_t s = 1; s <= view.slice_count; ++s)
@@ -65,7 +87,7 @@ Outcome validate_views(const Contents& contents) {
         if (Outcome outcome = validate_view(view, contents.views[0], v); !outcome.ok()) return outcome;
         if (view.slice_offset != edges || view.cell_offset != cells)
             return damaged("views", "slice_offset and cell_offset must follow the view before", v);
-        edges += view.slice_count + 1u;
+        if (view.structure != ML_STRUCTURE_WINDOWS) edges += view.slice_count + 1u;
         cells += view.cell_count;
         if (edges > contents.counts.slice_edges) return damaged("views", "the slice edges must fit their buffer", v);
         if (cells > contents.counts.cells) return damaged("views", "the cells must fit their buffer", v);
@@ -74,20 +96,6 @@ Outcome validate_views(const Contents& contents) {
     if (edges != contents.counts.slice_edges)
         return damaged("slice_edges", "must be as many as the views describe", edges);
     if (cells != contents.counts.cells) return damaged("cells", "must be as many as the views describe", cells);
-    return {};
-}
-
-// Marks each light of the cell; one that is marked already is there twice. Leaves no marks.
-Outcome validate_references(const Contents& contents, ReferenceRange range, std::uint32_t light_count,
-                            std::uint32_t* marks) {
-    for (std::uint64_t i = range.begin; i < range.end; ++i) {
-        const MlUint light = contents.references[i];
-        if (light >= light_count) return damaged("references", "must be less than light_count", i);
-        const std::uint32_t bit = 1u << (light % 32);
-        if ((marks[light / 32] & bit) != 0) return damaged("references", "must not name a light twice in a cell", i);
-        marks[light / 32] |= bit;
-    }
-    for (std::uint64_t i = range.begin; i < range.end; ++i) marks[contents.references[i] / 32] = 0;
     return {};
 }
 
@@ -115,7 +123,39 @@ Outcome validate_cell(const Contents& contents, std::uint64_t index, std::uint32
     return validate_references(contents, range, light_count, marks);
 }
 
+Outcome validate_cells(const Contents& contents, std::uint32_t light_count, std::uint32_t* marks) {
+    Claims claims;
+    for (std::uint64_t c = 0; c < contents.counts.cells; ++c)
+        if (Outcome outcome = validate_cell(contents, c, light_count, marks, claims); !outcome.ok()) return outcome;
+    return {};
+}
+
+// What windows do without, and the words of their references.
+Outcome count_of_windows(Counts& counts) {
+    if (counts.nodes != 0) return damaged("nodes", "windows must have none", 0);
+    if (counts.references % 2 != 0)
+        return damaged("references", "must have two words each in windows", counts.references);
+    counts.reference_words = reference_words(ML_STRUCTURE_WINDOWS);
+    counts.references /= counts.reference_words;
+    return {};
+}
+
 } // namespace
+
+// Marks each light; one that is marked already is there twice.
+Outcome validate_references(const Contents& contents, ReferenceRange range, std::uint32_t light_count,
+                            std::uint32_t* marks) {
+    const std::uint64_t words = contents.counts.reference_words;
+    for (std::uint64_t i = range.begin; i < range.end; ++i) {
+        const MlUint light = contents.references[i * words];
+        if (light >= light_count) return damaged("references", "must be less than light_count", i);
+        const std::uint32_t bit = 1u << (light % 32);
+        if ((marks[light / 32] & bit) != 0) return damaged("references", "must not name a light twice in a cell", i);
+        marks[light / 32] |= bit;
+    }
+    for (std::uint64_t i = range.begin; i < range.end; ++i) marks[contents.references[i * words] / 32] = 0;
+    return {};
+}
 
 Outcome validate_buffers(const ManylightsBuffers& buffers, const ManylightsSizes& sizes, std::uint32_t light_count,
                          std::uint32_t* marks) {
@@ -125,10 +165,9 @@ Outcome validate_buffers(const ManylightsBuffers& buffers, const ManylightsSizes
     if (Outcome outcome = count_elements(sizes, contents.counts); !outcome.ok()) return outcome;
     if (Outcome outcome = validate_views(contents); !outcome.ok()) return outcome;
     if (light_count != 0) std::memset(marks, 0, mark_words(light_count) * sizeof(std::uint32_t));
-    Claims claims;
-    for (std::uint64_t c = 0; c < contents.counts.cells; ++c)
-        if (Outcome outcome = validate_cell(contents, c, light_count, marks, claims); !outcome.ok()) return outcome;
-    return {};
+    if (contents.views[0].structure != ML_STRUCTURE_WINDOWS) return validate_cells(contents, light_count, marks);
+    if (Outcome outcome = count_of_windows(contents.counts); !outcome.ok()) return outcome;
+    return validate_windows(contents, light_count, marks);
 }
 
 } // namespace manylights::detail

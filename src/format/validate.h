@@ -30,12 +30,19 @@ struct Contents {
     Counts counts;
 };
 
-// The references that the nodes of a cell hand out: their leaves' ranges joined without a gap.
+// The references of a cell or of a tile, those of a cell with nodes being their leaves' ranges joined without a gap.
 struct ReferenceRange {
     std::uint64_t begin, end;
 };
 
+// No light of the references is unknown or there twice. marks: a bit per light, all 0 before and after.
+Outcome validate_references(const Contents& contents, ReferenceRange range, std::uint32_t light_count,
+                            std::uint32_t* marks);
+
 // The nodes [first, first + count) of a cell, in bounds already, are complete trees in a row.
 Outcome validate_nodes(const Contents& contents, MlCell cell, ReferenceRange& references);
+
+// The cells and the references of windows; the views are sound already.
+Outcome validate_windows(const Contents& contents, std::uint32_t light_count, std::uint32_t* marks);
 
 } // namespace manylights::detail

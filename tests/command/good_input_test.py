@@ -8,7 +8,7 @@ import unittest
 
 from harness import SMALL, CommandTest
 
-CELLS = ("clustered", "tiled_light_trees", "hybrid_light_trees")
+CELLS = ("clustered", "tiled_light_trees", "hybrid_light_trees", "depth_windows")
 
 
 def png_size(path):
@@ -76,7 +76,7 @@ class Verify(CommandTest):
             self.assertRegex(done.stdout, rf"(?m)^{name} .* 0  exact$")
         with open(self.path("a.json")) as file:
             rows = json.load(file)
-        self.assertEqual([row["missing_points"] for row in rows], [0] * 5)
+        self.assertEqual([row["missing_points"] for row in rows], [0] * (2 + len(CELLS)))
         cost = {row["technique"]: row["wave_cost_64"] for row in rows}
         self.assertEqual(cost["brute_force"], 500)
         self.assertEqual(min(cost, key=cost.get), "exact")

@@ -64,7 +64,7 @@ class Points(CommandTest):
         self.save()
         done = self.assert_done("verify", *CORNELL, "--points", "a.points")
         self.assertIn("63x35, points from a.points, ", done.stdout)
-        self.assertEqual(done.stdout.count("  exact\n"), 5)
+        self.assertEqual(done.stdout.count("  exact\n"), 6)
 
     def test_loaded_points_are_not_drawn_again(self):
         def points_of(done):

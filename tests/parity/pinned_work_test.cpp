@@ -15,14 +15,14 @@ namespace {
 struct Work {
     std::uint64_t tested, nodes, references;
     std::uint64_t visible_lights, structure_references, structure_bytes;
-    std::uint64_t wave_tested, wave_affecting, wave_nodes;
+    std::uint64_t wave_tested, wave_affecting, wave_nodes, wave_checks;
     bool operator==(const Work&) const = default;
 };
 
 void PrintTo(const Work& work, std::ostream* out) {
     *out << "{" << work.tested << ", " << work.nodes << ", " << work.references << ", " << work.visible_lights << ", "
          << work.structure_references << ", " << work.structure_bytes << ", " << work.wave_tested << ", "
-         << work.wave_affecting << ", " << work.wave_nodes << "}";
+         << work.wave_affecting << ", " << work.wave_nodes << ", " << work.wave_checks << "}";
 }
 
 struct PinnedWork {
@@ -33,26 +33,30 @@ struct PinnedWork {
 
 /// Tiles of 8 pixels, so that the small images have 4x3 of them; everything else as it is by default.
 constexpr PinnedWork kPinnedWork[] = {
-    {"canyon", "brute_force", {1990656, 0, 0, 4096, 0, 0, 49152, 510, 0}},
-    {"canyon", "exact", {3873, 0, 3873, 223, 3873, 19708, 510, 510, 0}},
-    {"canyon", "clustered", {37188, 0, 37188, 4096, 10849, 45064, 2996, 510, 0}},
-    {"canyon", "tiled_light_trees", {26807, 23596, 26807, 4096, 6561, 99948, 2271, 510, 1588}},
-    {"canyon", "hybrid_light_trees", {28346, 5358, 28346, 4096, 10849, 116808, 2268, 510, 908}},
-    {"citadel", "brute_force", {1110016, 0, 0, 4096, 0, 0, 40960, 336, 0}},
-    {"citadel", "exact", {2221, 0, 2221, 191, 2221, 13100, 336, 336, 0}},
-    {"citadel", "clustered", {12570, 0, 12570, 3195, 12654, 52284, 1835, 336, 0}},
-    {"citadel", "tiled_light_trees", {9947, 9867, 9947, 3195, 7688, 130056, 1128, 336, 874}},
-    {"citadel", "hybrid_light_trees", {10353, 1303, 10353, 3195, 12654, 167484, 1119, 336, 541}},
-    {"bars", "brute_force", {2093056, 0, 0, 4096, 0, 0, 49152, 701, 0}},
-    {"bars", "exact", {3966, 0, 3966, 391, 3966, 20080, 701, 701, 0}},
-    {"bars", "clustered", {37737, 0, 37737, 3250, 12893, 53240, 4346, 701, 0}},
-    {"bars", "tiled_light_trees", {29393, 24489, 29393, 3250, 6331, 101076, 3150, 701, 2094}},
-    {"bars", "hybrid_light_trees", {30999, 5327, 30999, 3250, 12893, 145512, 3138, 701, 1612}},
-    {"cornell", "brute_force", {1183744, 0, 0, 4096, 0, 0, 36864, 1333, 0}},
-    {"cornell", "exact", {1749, 0, 1749, 1284, 1749, 11212, 1333, 1333, 0}},
-    {"cornell", "clustered", {87725, 0, 87725, 4096, 7941, 33432, 5055, 1333, 0}},
-    {"cornell", "tiled_light_trees", {43382, 30975, 43382, 4096, 5351, 86916, 3543, 1333, 2297}},
-    {"cornell", "hybrid_light_trees", {42853, 29879, 42853, 4096, 7941, 121640, 3532, 1333, 2690}},
+    {"canyon", "brute_force", {1990656, 0, 0, 4096, 0, 0, 49152, 510, 0, 0}},
+    {"canyon", "exact", {3873, 0, 3873, 223, 3873, 19708, 510, 510, 0, 0}},
+    {"canyon", "clustered", {37188, 0, 37188, 4096, 10849, 45064, 2996, 510, 0, 0}},
+    {"canyon", "tiled_light_trees", {26807, 23596, 26807, 4096, 6561, 99948, 2271, 510, 1588, 0}},
+    {"canyon", "hybrid_light_trees", {28346, 5358, 28346, 4096, 10849, 116808, 2268, 510, 908, 0}},
+    {"canyon", "depth_windows", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0}},
+    {"citadel", "brute_force", {1110016, 0, 0, 4096, 0, 0, 40960, 336, 0, 0}},
+    {"citadel", "exact", {2221, 0, 2221, 191, 2221, 13100, 336, 336, 0, 0}},
+    {"citadel", "clustered", {12570, 0, 12570, 3195, 12654, 52284, 1835, 336, 0, 0}},
+    {"citadel", "tiled_light_trees", {9947, 9867, 9947, 3195, 7688, 130056, 1128, 336, 874, 0}},
+    {"citadel", "hybrid_light_trees", {10353, 1303, 10353, 3195, 12654, 167484, 1119, 336, 541, 0}},
+    {"citadel", "depth_windows", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0}},
+    {"bars", "brute_force", {2093056, 0, 0, 4096, 0, 0, 49152, 701, 0, 0}},
+    {"bars", "exact", {3966, 0, 3966, 391, 3966, 20080, 701, 701, 0, 0}},
+    {"bars", "clustered", {37737, 0, 37737, 3250, 12893, 53240, 4346, 701, 0, 0}},
+    {"bars", "tiled_light_trees", {29393, 24489, 29393, 3250, 6331, 101076, 3150, 701, 2094, 0}},
+    {"bars", "hybrid_light_trees", {30999, 5327, 30999, 3250, 12893, 145512, 3138, 701, 1612, 0}},
+    {"bars", "depth_windows", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0}},
+    {"cornell", "brute_force", {1183744, 0, 0, 4096, 0, 0, 36864, 1333, 0, 0}},
+    {"cornell", "exact", {1749, 0, 1749, 1284, 1749, 11212, 1333, 1333, 0, 0}},
+    {"cornell", "clustered", {87725, 0, 87725, 4096, 7941, 33432, 5055, 1333, 0, 0}},
+    {"cornell", "tiled_light_trees", {43382, 30975, 43382, 4096, 5351, 86916, 3543, 1333, 2297, 0}},
+    {"cornell", "hybrid_light_trees", {42853, 29879, 42853, 4096, 7941, 121640, 3532, 1333, 2690, 0}},
+    {"cornell", "depth_windows", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0}},
 };
 
 class PinnedWorkTest : public TechniquesTest, public testing::WithParamInterface<PinnedWork> {};
@@ -64,9 +68,16 @@ const PinnedView& view_of(const PinnedWork& pinned) {
 }
 
 Work work_of(const std::vector<PixelRecord>& records, const TechniqueStats& stats, const WaveWork& waves) {
-    Work work{
-        0,          0, 0, stats.visible_lights, stats.references, stats.structure_bytes, waves.tested, waves.affecting,
-        waves.nodes};
+    Work work{0,
+              0,
+              0,
+              stats.visible_lights,
+              stats.references,
+              stats.structure_bytes,
+              waves.tested,
+              waves.affecting,
+              waves.nodes,
+              waves.checks};
     for (const PixelRecord& record : records) {
         work.tested += record.tested;
         work.nodes += record.nodes;

@@ -45,7 +45,7 @@ struct Variant {
 };
 void PrintTo(const Variant& variant, std::ostream* out);
 
-/// The three structures from both producers.
+/// The structures, from both producers where both build them.
 std::vector<Variant> structure_variants();
 /// All that is compared with brute force: the structures and exact.
 std::vector<Variant> all_variants();

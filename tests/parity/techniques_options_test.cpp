@@ -29,20 +29,24 @@ void expect_words(const std::string& message, const std::vector<std::string>& wo
 
 TEST_F(TechniquesTest, unknown_technique_names_the_choices) {
     const std::string message = refusal(device(), "magic", {});
-    expect_words(message, {"magic", "brute_force", "exact", "clustered", "tiled_light_trees", "hybrid_light_trees"});
+    expect_words(message, {"magic", "brute_force", "exact", "clustered", "tiled_light_trees", "hybrid_light_trees",
+                           "depth_windows"});
 }
 
 TEST_F(TechniquesTest, unknown_option_names_the_keys) {
     expect_words(refusal(device(), "clustered", {{"leaf_size", "4"}}),
                  {"clustered", "leaf_size", "tile_size", "producer"});
     expect_words(refusal(device(), "tiled_light_trees", {{"slice_count", "4"}}), {"slice_count", "leaf_size"});
+    for (const char* key : {"slice_count", "leaf_size", "producer"})
+        expect_words(refusal(device(), "depth_windows", {{key, "4"}}), {"depth_windows", key, "tile_size"});
     for (const char* name : {"brute_force", "exact"})
         expect_words(refusal(device(), name, {{"tile_size", "48"}}), {name, "tile_size"});
 }
 
 TEST_F(TechniquesTest, values_out_of_range_name_the_range) {
-    for (const char* value : {"7", "4097", "0", "-1", "48px", "", "99999999999", "1e2"})
-        expect_words(refusal(device(), "clustered", {{"tile_size", value}}), {"tile_size", "8", "4096"});
+    for (const char* name : {"clustered", "depth_windows"})
+        for (const char* value : {"7", "4097", "0", "-1", "48px", "", "99999999999", "1e2"})
+            expect_words(refusal(device(), name, {{"tile_size", value}}), {name, "tile_size", "8", "4096"});
     for (const char* value : {"0", "129"})
         expect_words(refusal(device(), "hybrid_light_trees", {{"slice_count", value}}), {"slice_count", "1", "128"});
     for (const char* value : {"0", "65536"})
@@ -63,7 +67,7 @@ TEST_F(TechniquesTest, options_that_contradict_each_other_are_refused) {
 
 TEST(Techniques, infos_name_every_technique_and_their_options) {
     const std::vector<TechniqueInfo> infos = technique_infos();
-    ASSERT_EQ(infos.size(), 5u);
+    ASSERT_EQ(infos.size(), 6u);
     EXPECT_EQ(infos[0].name, "brute_force");
     EXPECT_EQ(infos[1].name, "exact");
     for (const TechniqueInfo& info : infos) EXPECT_FALSE(info.summary.empty());

@@ -227,7 +227,8 @@ TEST_P(StructureTest, reports_what_it_built) {
     EXPECT_GT(stats.visible_lights, 100u);
     EXPECT_LE(stats.visible_lights, 500u);
     EXPECT_GE(stats.references, stats.visible_lights);
-    EXPECT_GT(stats.structure_bytes, 4 * stats.references);
+    const std::uint64_t words = GetParam().technique == std::string("depth_windows") ? 2 : 1;
+    EXPECT_GT(stats.structure_bytes, 4 * words * stats.references);
 }
 
 // The switches of the paper change the work and never the answer.
@@ -292,9 +293,36 @@ TEST_F(TechniquesTest, every_size_of_the_structure_is_exact) {
         {"leaf_size=1", "tiled_light_trees", {{"leaf_size", "1"}}},
         {"leaf_size=65535", "tiled_light_trees", {{"leaf_size", "65535"}}},
         {"slice_far=30", "clustered", {{"slice_near", "0.5"}, {"slice_far", "30"}}},
+        {"windows of 8 pixels", "depth_windows", {{"tile_size", "8"}}},
+        {"windows of 13 pixels", "depth_windows", {{"tile_size", "13"}}},
+        {"windows of the whole image", "depth_windows", {{"tile_size", "4096"}}},
     };
     for (const Variant& variant : variants)
         expect_exact(compare(truth, records_of(device(), variant, view.frame()), view.width), variant.label);
+}
+
+TEST_F(TechniquesTest, tiles_of_windows_are_of_the_size_asked_for) {
+    const View view = made_view(device(), 97, 60, 1500);
+    const auto references_with = [&](const OptionValues& options) {
+        const std::unique_ptr<Technique> technique = make_technique(device(), "depth_windows", options);
+        technique->prepare(view.frame());
+        return technique->stats().references;
+    };
+    EXPECT_GT(references_with({{"tile_size", "16"}}), references_with({{"tile_size", "64"}}));
+    EXPECT_EQ(references_with({{"tile_size", "32"}}), references_with({})) << "the library's choice for few lights";
+}
+
+// Few lights in small tiles: where one affects a point there is a list, and elsewhere are tiles without any.
+TEST_F(TechniquesTest, tiles_of_windows_without_lights_have_no_class) {
+    const View view = made_view(device(), 97, 60, 5);
+    const std::vector<PixelRecord> truth = records_of(device(), kBruteForce, view.frame());
+    const std::unique_ptr<Technique> technique = make_technique(device(), "depth_windows", {{"tile_size", "8"}});
+    technique->prepare(view.frame());
+    const std::vector<CellClass> classes = technique->classify(view.frame());
+    EXPECT_GT(std::ranges::count(classes, CellClass::none), 100);
+    EXPECT_GT(summarize(truth).affecting_mean, 0.0);
+    for (std::size_t pixel = 0; pixel < classes.size(); ++pixel)
+        ASSERT_TRUE(truth[pixel].affecting == 0 || classes[pixel] == CellClass::list) << "pixel " << pixel;
 }
 
 // Figure 3 of Tiled Light Trees: a class per tile.
@@ -311,6 +339,7 @@ TEST_F(TechniquesTest, classes_are_those_of_the_cells_that_pixels_walk) {
     const std::ptrdiff_t pixels = 97 * 60;
     EXPECT_TRUE(classes_of("brute_force", {}).empty());
     EXPECT_EQ(count(classes_of("clustered", {}), CellClass::list), pixels);
+    EXPECT_EQ(count(classes_of("depth_windows", {}), CellClass::list), pixels);
     EXPECT_EQ(count(classes_of("tiled_light_trees", {}), CellClass::tree), pixels);
     EXPECT_EQ(count(classes_of("tiled_light_trees", {{"leaf_size", "65535"}}), CellClass::list), pixels);
     const OptionValues always{{"producer", "paper"}, {"heuristic", "e"}, {"leaf_size", "1"}, {"slice_count", "1"}};

@@ -35,14 +35,24 @@ struct Query {
     const HostStructure& structure;
     Lanes& lanes;
 
+    bool has_windows() const { return structure.view.structure == ML_STRUCTURE_WINDOWS; }
+
     const MlNode& touched_node(MlUint i) {
         lanes[kTouchNode].insert(i);
         return structure.nodes[i];
     }
+    const MlCell& touched_cell(MlUint i) {
+        if (has_windows()) lanes[kTouchNode].insert(i / 2);
+        return structure.cells[i];
+    }
+    MlUint touched_reference(MlUint i) {
+        if (has_windows() && i % 2 == 1) lanes[kTouchCheck].insert(i / 2);
+        return structure.references[i];
+    }
 #define ML_SLICE_EDGE(i) structure.slice_edges[i]
-#define ML_CELL(i) structure.cells[i]
+#define ML_CELL(i) touched_cell(i)
 #define ML_NODE(i) touched_node(i)
-#define ML_REFERENCE(i) structure.references[i]
+#define ML_REFERENCE(i) touched_reference(i)
 #include <manylights/query.h>
 };
 
@@ -88,6 +98,7 @@ WaveWork expected_work(const View& view, std::uint32_t wave_rows, const Structur
             work.tested += lanes[kTouchTested].size();
             work.affecting += lanes[kTouchAffecting].size();
             work.nodes += lanes[kTouchNode].size();
+            work.checks += lanes[kTouchCheck].size();
         }
     }
     return work;
@@ -99,6 +110,7 @@ class Built {
     Built(gpu::Device& device, StructureKind kind, const Frame& frame) : buffers_(device) {
         StructureOptions options;
         options.kind = kind;
+        if (kind == StructureKind::windows) options.tile_size = 0;
         const std::unique_ptr<Producer> producer = make_library_producer(options);
         buffers_.reserve(producer->plan(frame));
         producer->write(buffers_.targets());
@@ -117,7 +129,8 @@ struct Kind {
 };
 constexpr Kind kKinds[] = {{"clustered", StructureKind::lists},
                            {"tiled_light_trees", StructureKind::trees},
-                           {"hybrid_light_trees", StructureKind::hybrid}};
+                           {"hybrid_light_trees", StructureKind::hybrid},
+                           {"depth_windows", StructureKind::windows}};
 
 WaveSummary waves_of(gpu::Device& device, const char* name, const Frame& frame) {
     const std::unique_ptr<Technique> technique = make_technique(device, name, {});
@@ -159,6 +172,7 @@ TEST_F(Waves, of_structures_are_unions_of_what_the_query_touches) {
             EXPECT_EQ(summary.lanes_64, expected_work(view, 8, &structure)) << text_of(kind.technique, size);
             EXPECT_EQ(summary.lanes_32, expected_work(view, 4, &structure)) << text_of(kind.technique, size);
             EXPECT_EQ(summary.lanes_64.nodes > 0, kind.kind != StructureKind::lists && summary.lanes_64.waves > 0);
+            EXPECT_EQ(summary.lanes_64.checks > 0, kind.kind == StructureKind::windows && summary.lanes_64.waves > 0);
         }
     }
 }

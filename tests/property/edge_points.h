@@ -5,7 +5,7 @@
 
 namespace manylights::test {
 
-/// Where grids have their edges; the same for all three structures.
+/// Where grids have their edges; the same for all structures with slices of the view.
 struct Grid {
     std::uint32_t tile_px;
     std::vector<float> slice_edges; ///< the finite ones above 0

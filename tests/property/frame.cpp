@@ -37,7 +37,7 @@ ManylightsLights lights_of(const std::vector<ManylightsSphere>& spheres) {
 }
 
 const char* structure_name(std::uint32_t structure) {
-    static constexpr const char* kNames[] = {"default", "lists", "trees", "hybrid"};
+    static constexpr const char* kNames[] = {"default", "lists", "trees", "hybrid", "windows"};
     return kNames[structure];
 }
 

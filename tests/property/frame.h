@@ -36,7 +36,7 @@ ManylightsSettings default_settings(ManylightsStructure structure = MANYLIGHTS_S
 ManylightsLights lights_of(const std::vector<ManylightsSphere>& spheres);
 const char* structure_name(std::uint32_t structure);
 inline constexpr ManylightsStructure kStructures[] = {MANYLIGHTS_STRUCTURE_LISTS, MANYLIGHTS_STRUCTURE_TREES,
-                                                      MANYLIGHTS_STRUCTURE_HYBRID};
+                                                      MANYLIGHTS_STRUCTURE_HYBRID, MANYLIGHTS_STRUCTURE_WINDOWS};
 
 /// Owns a builder and its buffers. build() plans, writes into memory that is filled with a pattern and fenced by
 /// canaries, checks the canaries and validates; false, with `failure` saying why, where any of that goes wrong.
@@ -56,7 +56,11 @@ class Frame {
     ManylightsStats stats() const;
     std::size_t cell_count() const { return static_cast<std::size_t>(sizes_.cells / sizeof(MlCell)); }
     std::size_t node_count() const { return static_cast<std::size_t>(sizes_.nodes / sizeof(MlNode)); }
-    std::size_t reference_count() const { return static_cast<std::size_t>(sizes_.references / 4); }
+    /// In windows a reference has two words.
+    std::size_t reference_count() const {
+        bool windows = sizes_.views != 0 && view().structure == ML_STRUCTURE_WINDOWS;
+        return static_cast<std::size_t>(sizes_.references / (windows ? 8 : 4));
+    }
 
     /// Every byte of the five buffers, one after the other.
     std::vector<std::byte> bytes() const;

@@ -1,5 +1,5 @@
 #pragma once
-// Lights and points of one test, asked of all three structures; and the same inputs counted against a naive form, so
+// Lights and points of one test, asked of all structures; and the same inputs counted against a naive form, so
 // that a test shows that its inputs can tell the two apart.
 
 #include "tests/property/promise.h"
@@ -39,7 +39,7 @@ oracle::Double3 slopes_at(const oracle::Camera& camera, double x, double y);
 /// A random camera at the world's origin.
 oracle::Camera camera_at_origin(oracle::Random& random, std::uint32_t largest_edge_px = 1000);
 
-/// Builds lists, trees and hybrid, asks for every probe at all promised pixels and depths, and expects that none is
+/// Builds every structure, asks for every probe at all promised pixels and depths, and expects that none is
 /// lost. What was checked is added to the outcome (once per probe, not per structure).
 void expect_none_lost(const Trial& trial, const ManylightsSettings& settings, Outcome& outcome);
 

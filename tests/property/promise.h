@@ -9,7 +9,8 @@
 namespace manylights::test {
 
 /// Of all the pixels whose centre lies within guard_px of the position (in x and in y): the first and the last one of
-/// each tile. The query looks at nothing finer than a tile, so these stand for all. Centres, in pixels.
+/// each tile. The query looks at nothing finer than a tile, but for a rectangle in it, and what holds both ends of a
+/// row holds all of it: so these stand for all. Centres, in pixels.
 std::vector<MlFloat2> promised_pixels(const oracle::Camera& camera, std::uint32_t tile_px,
                                       oracle::ScreenPosition screen);
 

@@ -19,7 +19,7 @@ constexpr int kLightsPerPlan = 400;
 struct Tally {
     std::uint64_t triples = 0, at_surface = 0, at_edge = 0, both = 0, far_from_origin = 0;
     std::uint64_t plans = 0, queries = 0;
-    std::uint64_t lost[4] = {}; ///< by structure
+    std::uint64_t lost[5] = {}; ///< by structure
 };
 
 ManylightsSettings random_settings(oracle::Random& random) {
@@ -129,9 +129,9 @@ TEST(Promise, EveryAffectingLightIsHandedOutExactlyOnce) {
         oracle::Random random(seed);
         run_case(random, tally);
         ASSERT_FALSE(HasFatalFailure()) << "seed " << seed;
-        ASSERT_EQ(tally.lost[1] + tally.lost[2] + tally.lost[3], 0u)
+        ASSERT_EQ(tally.lost[1] + tally.lost[2] + tally.lost[3] + tally.lost[4], 0u)
             << "seed " << seed << ": lists lost " << tally.lost[1] << ", trees " << tally.lost[2] << ", hybrid "
-            << tally.lost[3];
+            << tally.lost[3] << ", windows " << tally.lost[4];
     }
     std::printf("triples %llu: at the surface %llu, at an edge %llu, both %llu, "
                 "1e4 and more from the origin %llu; plans %llu, queries %llu\n",

@@ -26,7 +26,7 @@ TEST(Create, RefusesEachBadSettingByName) {
     const BadSettings rows[] = {
         {"settings.size", [](auto& s) { s.size = 0; }},
         {"settings.size", [](auto& s) { s.size = sizeof(s) - 1; }},
-        {"settings.structure", [](auto& s) { s.structure = 4; }},
+        {"settings.structure", [](auto& s) { s.structure = 5; }},
         {"settings.tile_px", [](auto& s) { s.tile_px = 7; }},
         {"settings.tile_px", [](auto& s) { s.tile_px = 65537; }},
         {"settings.slice_count", [](auto& s) { s.slice_count = 129; }},
@@ -65,6 +65,11 @@ TEST(Create, TakesDefaultsForNullAndForZeros) {
     EXPECT_EQ(frame.views[0].structure, ML_STRUCTURE_HYBRID);
     EXPECT_EQ(frame.views[0].tile_px, 48u);
     EXPECT_EQ(frame.views[0].slice_count, 16u);
+
+    const BuilderPtr windows = make_builder(settings_of(MANYLIGHTS_STRUCTURE_WINDOWS));
+    frame = build_frame(windows.get(), {make_view()}, {});
+    EXPECT_EQ(frame.views[0].structure, ML_STRUCTURE_WINDOWS);
+    EXPECT_EQ(frame.views[0].tile_px, 32u);
 
     ManylightsReport report{};
     EXPECT_EQ(manylights_create(nullptr, nullptr, &report), MANYLIGHTS_INVALID_ARGUMENT);

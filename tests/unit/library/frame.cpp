@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -140,6 +141,13 @@ ManylightsBuffers Frame::buffers() {
     return {views.data(), slice_edges.data(), cells.data(), nodes.data(), references.data()};
 }
 
+std::size_t Frame::list_count() const {
+    if (!has_windows()) return cells.size();
+    std::size_t tiles = 0;
+    for (const MlView& view : views) tiles += std::size_t{view.tiles_x} * view.tiles_y;
+    return tiles;
+}
+
 std::string Frame::bytes() const {
     std::string all;
     const auto append = [&](const auto& elements) {
@@ -184,11 +192,27 @@ std::vector<MlUint> lights_at(const Frame& frame, std::uint32_t view, float x, f
     return lights;
 }
 
+// A tile's references end where those of the next one begin: behind a view's headers, that is the next view's first.
+std::vector<MlUint> lights_of_tile(const Frame& frame, std::uint32_t header) {
+    std::size_t end = frame.reference_count();
+    for (const MlView& view : frame.views) {
+        const std::uint32_t headers_end = view.cell_offset + 2 * view.tiles_x * view.tiles_y;
+        if (header < view.cell_offset)
+            end = std::min<std::size_t>(end, frame.cells.at(view.cell_offset).first);
+        else if (header + 2 < headers_end)
+            end = std::min<std::size_t>(end, frame.cells.at(header + 2).first);
+    }
+    std::vector<MlUint> lights;
+    for (std::size_t i = frame.cells.at(header).first; i < end; ++i) lights.push_back(frame.references.at(2 * i));
+    return lights;
+}
+
 std::vector<MlUint> lights_of_cell(const Frame& frame, std::uint32_t cell) {
     std::vector<MlUint> lights;
     const auto append = [&](MlUint first, MlUint count) {
         for (MlUint i = first; i < first + count; ++i) lights.push_back(frame.references.at(i));
     };
+    if (frame.has_windows()) return lights_of_tile(frame, cell);
     const MlCell record = frame.cells.at(cell);
     if (frame.views[0].structure == ML_STRUCTURE_LISTS) {
         append(record.first, record.count);

@@ -69,6 +69,12 @@ struct Frame {
     std::vector<MlNode> nodes;
     std::vector<MlUint> references;
 
+    bool has_windows() const { return views.at(0).structure == ML_STRUCTURE_WINDOWS; }
+    std::size_t reference_count() const { return references.size() / (has_windows() ? 2 : 1); }
+    // Cells that stand for lights of their own (windows: tiles, whose headers are two cells each).
+    std::size_t list_count() const;
+    std::uint32_t cells_each() const { return has_windows() ? 2 : 1; }
+
     void allocate(const ManylightsSizes& planned);
     ManylightsBuffers buffers();
     std::string bytes() const; // of all buffers, for comparisons
@@ -84,7 +90,8 @@ ManylightsReport validate(ManylightsBuilder* builder, Frame& frame, std::uint32_
 // The lights that the shader text hands out, in its order.
 std::vector<MlUint> lights_at(const Frame& frame, std::uint32_t view, float x, float y, float depth);
 
-// Every light of a cell once, whatever the depth: its references in order.
+// Every light of a cell once, whatever the depth: its references in order. Windows: of the tile whose header begins
+// there.
 std::vector<MlUint> lights_of_cell(const Frame& frame, std::uint32_t cell);
 
 } // namespace manylights::test

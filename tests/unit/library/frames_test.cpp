@@ -14,7 +14,7 @@ namespace manylights::test {
 namespace {
 
 constexpr std::uint32_t kStructures[] = {MANYLIGHTS_STRUCTURE_LISTS, MANYLIGHTS_STRUCTURE_TREES,
-                                         MANYLIGHTS_STRUCTURE_HYBRID};
+                                         MANYLIGHTS_STRUCTURE_HYBRID, MANYLIGHTS_STRUCTURE_WINDOWS};
 
 // Runs tasks on as many threads, last one first.
 struct Threads {
@@ -97,17 +97,18 @@ TEST(Views, EightAtOnceGiveWhatEachGivesAlone) {
         ASSERT_EQ(validate(builder.get(), all, 1500).status, MANYLIGHTS_OK);
         ManylightsStats stats{};
         manylights_stats(builder.get(), &stats);
-        EXPECT_EQ(stats.references, all.references.size());
+        EXPECT_EQ(stats.references, all.reference_count());
         EXPECT_EQ(stats.nodes, all.nodes.size());
-        EXPECT_EQ(stats.cells, all.cells.size());
+        EXPECT_EQ(stats.cells, all.list_count());
         EXPECT_EQ(stats.cells, stats.empty_cells + stats.list_cells + stats.tree_cells);
         std::uint64_t visible = 0;
         const BuilderPtr single = make_builder(settings_of(structure));
         for (std::uint32_t v = 0; v < 8; ++v) {
             Frame alone = build_frame(single.get(), {views[v]}, spheres);
             ASSERT_EQ(alone.cells.size(), all.views[v].cell_count);
-            for (std::uint32_t c = 0; c < alone.cells.size(); ++c)
-                ASSERT_EQ(lights_of_cell(alone, c), lights_of_cell(all, all.views[v].cell_offset + c));
+            for (std::uint32_t c = 0; c < alone.list_count(); ++c)
+                ASSERT_EQ(lights_of_cell(alone, c * alone.cells_each()),
+                          lights_of_cell(all, all.views[v].cell_offset + c * all.cells_each()));
             const std::uint32_t* indices = nullptr;
             std::uint32_t count = 0;
             ASSERT_EQ(manylights_visible(builder.get(), v, &indices, &count, nullptr), MANYLIGHTS_OK);
@@ -234,6 +235,7 @@ TEST(Budget, WhatNoOffsetReachesIsTooLarge) {
         EXPECT_EQ(status, MANYLIGHTS_OK) << structure;
         EXPECT_GT(stats.tile_px, 8u);
         EXPECT_LE(std::max({stats.references, stats.nodes, stats.cells}), 500u);
+        EXPECT_LE(std::max(sizes.references / sizeof(MlUint), sizes.cells / sizeof(MlCell)), 500u);
 
         builder->most_elements = 20;
         status = manylights_plan(builder.get(), &view, 1, &lights, &sizes, &report);

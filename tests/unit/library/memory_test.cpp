@@ -42,7 +42,7 @@ struct Heap {
 };
 
 constexpr std::uint32_t kStructures[] = {MANYLIGHTS_STRUCTURE_LISTS, MANYLIGHTS_STRUCTURE_TREES,
-                                         MANYLIGHTS_STRUCTURE_HYBRID};
+                                         MANYLIGHTS_STRUCTURE_HYBRID, MANYLIGHTS_STRUCTURE_WINDOWS};
 
 TEST(Memory, NothingIsAllocatedAfterWarmUp) {
     for (const std::uint32_t structure : kStructures) {

@@ -14,13 +14,13 @@ namespace {
 class Structures : public testing::TestWithParam<std::uint32_t> {};
 
 std::string structure_name(const testing::TestParamInfo<std::uint32_t>& tested) {
-    constexpr const char* kNames[] = {"default", "lists", "trees", "hybrid"};
+    constexpr const char* kNames[] = {"default", "lists", "trees", "hybrid", "windows"};
     return kNames[tested.param];
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Structures,
                          testing::Values(MANYLIGHTS_STRUCTURE_LISTS, MANYLIGHTS_STRUCTURE_TREES,
-                                         MANYLIGHTS_STRUCTURE_HYBRID),
+                                         MANYLIGHTS_STRUCTURE_HYBRID, MANYLIGHTS_STRUCTURE_WINDOWS),
                          structure_name);
 
 // A camera at the origin that looks along world -z; the options' image.

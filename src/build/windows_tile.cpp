@@ -1,0 +1,156 @@
+#include "src/build/windows.h"
+
+#include "src/format/layout.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace manylights::detail {
+
+namespace {
+
+constexpr std::uint32_t kFlatReferences = 8; // up to so many, a table costs more than it saves
+constexpr int kExtentBits = 25;              // 0 to 24 of them
+
+// The extents of a tile's depth ranges, by their number of bits.
+struct Extents {
+    std::uint32_t base_code, last_code;
+    std::uint32_t counts[kExtentBits];
+    std::uint32_t largest[kExtentBits];
+};
+
+Extents measure(const WindowRecord* records, std::uint32_t count) {
+    Extents extents = {ML_DEPTH_CODE_MAX, 0, {}, {}};
+    for (std::uint32_t i = 0; i < count; ++i) {
+        extents.base_code = std::min(extents.base_code, records[i].near_code());
+        extents.last_code = std::max(extents.last_code, records[i].far_code());
+        const std::uint32_t extent = records[i].extent();
+        const auto bits = static_cast<int>(std::bit_width(extent));
+        ++extents.counts[bits];
+        extents.largest[bits] = std::max(extents.largest[bits], extent);
+    }
+    return extents;
+}
+
+// Two classes: the ranges of fewer than small_bits bits, and the others; or one class, and large_count is 0.
+struct Classes {
+    int small_bits;
+    std::uint32_t small_count, large_count;
+    std::uint32_t small_extent, large_extent; // the largest of the class
+};
+
+Classes split_at(const Extents& extents, int small_bits) {
+    Classes classes = {small_bits, 0, 0, 0, 0};
+    for (int bits = 0; bits < kExtentBits; ++bits) {
+        const bool small = bits < small_bits;
+        (small ? classes.small_count : classes.large_count) += extents.counts[bits];
+        std::uint32_t& largest = small ? classes.small_extent : classes.large_extent;
+        largest = std::max(largest, extents.largest[bits]);
+    }
+    return classes;
+}
+
+// A depth's window holds about all references of a class that begin within the class's largest extent of it: so many,
+// times the tile's depth.
+std::uint64_t checks_of(const Classes& classes) {
+    return static_cast<std::uint64_t>(classes.small_count) * classes.small_extent +
+           static_cast<std::uint64_t>(classes.large_count) * classes.large_extent;
+}
+
+// The split with the fewest checks, if it saves two of them on average; its second word per slice costs as much to
+// read.
+Classes choose_classes(const Extents& extents) {
+    const Classes together = split_at(extents, kExtentBits);
+    const std::uint64_t depth = extents.last_code - extents.base_code + 1;
+    Classes best = together;
+    for (int bits = 1; bits < kExtentBits; ++bits) {
+        if (extents.counts[bits - 1] == 0) continue;
+        const Classes split = split_at(extents, bits);
+        if (split.large_count != 0 && checks_of(split) < checks_of(best)) best = split;
+    }
+    return checks_of(best) + 2 * depth <= checks_of(together) ? best : together;
+}
+
+// Slices are a power of two wide, the least such that there are at most most_slices of them.
+std::uint32_t slice_shift_for(std::uint32_t depth_span, std::uint32_t most_slices) {
+    std::uint32_t shift = 0;
+    while ((depth_span >> shift) >= most_slices) ++shift;
+    return shift;
+}
+
+// At most 256 slices, and no finer than a quarter of the small references' extent. A power of two leaves the tile
+// between half as many and all, so 3/4 of the references stand for the half that measures best.
+std::uint32_t most_slices(const Classes& classes, std::uint32_t count, std::uint64_t depth) {
+    const std::uint64_t by_count = static_cast<std::uint64_t>(count) * 3 / 4;
+    const std::uint64_t by_extent = 4 * depth / std::max(classes.small_extent, 1u);
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>({ML_TILE_SLICES_MAX, by_count, by_extent}));
+}
+
+// The units that a class's depths are kept in: the finest in which no reference of a window is taken for one that holds
+// a depth 256 units off. From a depth, near ends lie up to a slice farther and up to an extent and a slice nearer.
+std::uint32_t reference_shift(std::uint32_t extent, std::uint32_t slice_shift) {
+    std::uint32_t shift = 0;
+    while ((extent >> shift) + 1 + ((2u << slice_shift) >> shift) > 255) ++shift;
+    return shift;
+}
+
+MlTileForm one_slice(const Extents& extents, const Classes& together, std::uint32_t count) {
+    MlTileForm form{};
+    form.slice_shift = slice_shift_for(extents.last_code - extents.base_code, 1);
+    form.small_shift = reference_shift(together.small_extent, form.slice_shift);
+    form.wide = count > ML_WINDOW_NARROW_MAX ? 1 : 0;
+    form.flat_count = count <= ML_TILE_FLAT_MAX ? count : 0;
+    if (ml_pack_tile_form(form) == 0) form.slice_shift = 1; // a form of 0 says that there is no reference
+    return form;
+}
+
+MlTileForm choose_form(const Extents& extents, std::uint32_t count, Classes& classes) {
+    classes = choose_classes(extents);
+    const std::uint32_t span = extents.last_code - extents.base_code;
+    const std::uint32_t most = most_slices(classes, count, std::uint64_t{span} + 1);
+    const std::uint32_t shift = slice_shift_for(span, std::max(most, 1u));
+    const std::uint32_t last_slice = span >> shift;
+    if (count <= kFlatReferences || last_slice < 2) {
+        classes = split_at(extents, kExtentBits);
+        return one_slice(extents, classes, count);
+    }
+    MlTileForm form{};
+    form.slice_shift = shift;
+    form.last_slice = last_slice;
+    form.wide = count > ML_WINDOW_NARROW_MAX ? 1 : 0;
+    form.two_classes = classes.large_count != 0 ? 1 : 0;
+    form.small_shift = reference_shift(classes.small_extent, shift);
+    if (form.two_classes != 0) form.large_shift = reference_shift(classes.large_extent, shift);
+    return form;
+}
+
+// A counting sort by class and slice of the near end. Within a slice the order stays: that of the lights.
+void order(const WindowTile& tile, int small_bits, const WindowRecord* records, std::uint32_t count,
+           WindowRecord* ordered) {
+    std::uint32_t next[2 * ML_TILE_SLICES_MAX + 1] = {};
+    const auto key = [&](const WindowRecord& record) {
+        const bool small = static_cast<int>(std::bit_width(record.extent())) < small_bits;
+        return (small ? 0 : ML_TILE_SLICES_MAX) + slice_of_code(tile, record.near_code());
+    };
+    for (std::uint32_t i = 0; i < count; ++i) ++next[key(records[i]) + 1];
+    for (std::uint32_t k = 1; k <= 2 * ML_TILE_SLICES_MAX; ++k) next[k] += next[k - 1];
+    for (std::uint32_t i = 0; i < count; ++i) ordered[next[key(records[i])]++] = records[i];
+}
+
+} // namespace
+
+WindowTile cut_tile(const WindowRecord* records, std::uint32_t count, WindowRecord* ordered) {
+    const Extents extents = measure(records, count);
+    Classes classes{};
+    WindowTile tile{};
+    tile.base_code = extents.base_code;
+    tile.form = choose_form(extents, count, classes);
+    tile.small_count = classes.small_count;
+    if (tile.form.last_slice == 0)
+        std::copy(records, records + count, ordered);
+    else
+        order(tile, classes.small_bits, records, count, ordered);
+    return tile;
+}
+
+} // namespace manylights::detail

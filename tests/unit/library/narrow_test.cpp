@@ -1,0 +1,220 @@
+// The depths of a sphere in a tile's pyramid: never less than what its points show, and not much more.
+
+#include "src/build/narrow.h"
+#include "tests/unit/library/frame.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace manylights::test {
+namespace {
+
+using detail::Axis;
+using detail::Interval;
+using detail::TileWedge;
+using detail::WedgeCut;
+
+struct Point {
+    double x, y, depth;
+};
+
+struct Ball {
+    Point center;
+    double radius;
+};
+
+// What a pixel of the tile is promised, of an axis: by the position that the point projects to, not by planes.
+struct Strip {
+    Axis axis;
+    std::uint32_t first_px, last_px;
+    double guard_px;
+
+    TileWedge wedge() const { return detail::tile_wedge(axis, first_px, last_px, guard_px); }
+    bool holds(double offset, double depth) const {
+        if (!(depth > 0.0)) return false;
+        const double position = axis.origin + axis.scale * (offset / depth);
+        return position >= first_px + 0.5 - guard_px && position <= last_px + 0.5 + guard_px;
+    }
+    double slope_of(double position) const { return (position - axis.origin) / axis.scale; }
+};
+
+// Mirrored and off-centre axes among them.
+Strip random_strip(Random& random) {
+    const auto size = static_cast<std::uint32_t>(random.between(100, 4000));
+    const double sign = random.unit() < 0.5 ? -1.0 : 1.0;
+    const Axis axis = {sign * size * random.between(0.1, 3.0), size * random.between(-2.0, 3.0), size};
+    const auto first = static_cast<std::uint32_t>(random.between(0, size - 50));
+    return {axis, first, first + static_cast<std::uint32_t>(random.between(0, 49)), random.between(0.0, 2.0)};
+}
+
+// Most are near one of the strip's planes, some only just touch it, some hold the camera, some are behind it.
+Ball random_ball(Random& random, const Strip& columns, const Strip& rows) {
+    const double depth = std::exp2(random.between(-6, 12));
+    const double radius = depth * std::exp2(random.between(-12, 3));
+    const auto offset = [&](const Strip& strip) {
+        const double slope = strip.slope_of(random.unit() < 0.5 ? strip.first_px - 0.0 : strip.last_px + 1.0);
+        const double touch = random.unit() < 0.3 ? 1.0 - std::exp2(random.between(-30, -4)) : random.between(-1.5, 1.5);
+        return slope * depth + (random.unit() < 0.5 ? -1 : 1) * touch * radius * std::sqrt(1.0 + slope * slope);
+    };
+    const double z = random.unit() < 0.1 ? -0.5 * radius : depth;
+    return {{offset(columns), offset(rows), z}, radius};
+}
+
+// A direction's point at a part of the radius.
+Point point_at(const Ball& ball, double u, double angle, double part) {
+    const double ring = std::sqrt(std::max(1.0 - u * u, 0.0));
+    const double r = ball.radius * part;
+    return {ball.center.x + r * ring * std::cos(angle), ball.center.y + r * ring * std::sin(angle),
+            ball.center.depth + r * u};
+}
+
+// Where the sphere meets the plane x = slope * depth, all around and a little inside: the depths that a cap's extremes
+// have lie there.
+Point point_on_cut(const Ball& ball, double slope, double angle, double part) {
+    const double length = std::sqrt(1.0 + slope * slope);
+    const double h = (ball.center.x - slope * ball.center.depth) / length;
+    const double rim = std::sqrt(std::max((ball.radius - h) * (ball.radius + h), 0.0)) * part;
+    const double along = rim * std::cos(angle);
+    return {ball.center.x - h / length + along * slope / length, ball.center.y + rim * std::sin(angle),
+            ball.center.depth + h * slope / length + along / length};
+}
+
+double distance(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y, a.depth - b.depth); }
+
+// Points of the ball, dense where bounds are tight.
+std::vector<Point> sample(Random& random, const Ball& ball, const Strip& columns) {
+    std::vector<Point> points;
+    for (int i = 0; i < 300; ++i)
+        points.push_back(point_at(ball, random.between(-1, 1), random.between(0, 6.2831853), std::cbrt(random.unit())));
+    for (int i = 0; i < 64; ++i) points.push_back(point_at(ball, i % 2 == 0 ? 1.0 : -1.0, 0.0, 1.0 - i * 1e-3));
+    for (const double position : {columns.first_px + 0.5 - columns.guard_px, columns.last_px + 0.5 + columns.guard_px})
+        for (int i = 0; i < 128; ++i)
+            points.push_back(point_on_cut(ball, columns.slope_of(position), i * 3.14159265358979 / 64.0, 1.0 - 1e-12));
+    std::erase_if(points, [&](const Point& p) { return distance(p, ball.center) > ball.radius; });
+    return points;
+}
+
+TEST(Narrow, HoldsEveryPointOfTheSphereThatAPixelOfTheTileIsPromised) {
+    Random random(21);
+    std::uint64_t held = 0;
+    std::uint64_t narrowed = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const Strip columns = random_strip(random);
+        const Strip rows = random_strip(random);
+        const Ball ball = random_ball(random, columns, rows);
+        const WedgeCut column = cut_wedge(columns.wedge(), ball.center.x, ball.center.depth, ball.radius);
+        const WedgeCut row = cut_wedge(rows.wedge(), ball.center.y, ball.center.depth, ball.radius);
+        const bool missed = misses_corner(column, row, ball.radius);
+        narrowed += column.depths.high - column.depths.low < 1.9 * ball.radius ? 1 : 0;
+        for (const Point& p : sample(random, ball, columns)) {
+            if (!columns.holds(p.x, p.depth)) continue;
+            ASSERT_TRUE(column.depths.low <= p.depth && p.depth <= column.depths.high) << i;
+            if (!rows.holds(p.y, p.depth)) continue;
+            ++held;
+            ASSERT_TRUE(row.depths.low <= p.depth && p.depth <= row.depths.high) << i;
+            ASSERT_FALSE(missed) << i;
+        }
+    }
+    EXPECT_GT(held, 200000u);
+    EXPECT_GT(narrowed, 8000u) << "the planes must cut most of these spheres";
+}
+
+// A sphere on the axis, the plane x = depth: its foot is at (d / 2, d / 2).
+TEST(Narrow, HasTheDepthsOfTheCapThatAPlaneCuts) {
+    const double d = 10.0;
+    const double r = 8.0;
+    const double half = std::sqrt(0.5);
+    const TileWedge one_plane = {{{half, -half}, {half, -half}}};
+    const WedgeCut cut = detail::cut_wedge(one_plane, 0.0, d, r);
+    const double h = d * half;
+    const double rim = std::sqrt(r * r - h * h) * half;
+    EXPECT_NEAR(cut.depths.low, 5.0 - rim, 1e-9);
+    EXPECT_NEAR(cut.depths.high, 5.0 + rim, 1e-9);
+    EXPECT_NEAR(cut.distance, -h, 1e-9);
+    EXPECT_TRUE(detail::cut_wedge(one_plane, 0.0, d, 7.0).depths.empty()) << "the plane is 7.07 away";
+    EXPECT_FALSE(detail::cut_wedge(one_plane, 0.0, d, 7.08).depths.empty());
+}
+
+// Tiles of 32 pixels that a sphere's rectangle spans, in a common camera: against the depths of many of its points.
+TEST(Narrow, IsTightOnOrdinaryLights) {
+    Random random(22);
+    double found = 0.0;
+    double sampled = 0.0;
+    double whole = 0.0;
+    for (int i = 0; i < 400; ++i) {
+        const Axis axis = {1000.0, 500.0, 1000};
+        const auto first = 32 * static_cast<std::uint32_t>(random.between(0, 30));
+        const Strip strip = {axis, first, first + 31, 0.5};
+        const double depth = random.between(20, 300);
+        const double slope = strip.slope_of(random.between(first - 40.0, first + 72.0));
+        const Ball ball = {{slope * depth, 0.0, depth}, random.between(2, 8)};
+        Interval seen = {1e300, -1e300};
+        for (int k = 0; k < 4000; ++k) {
+            const Point p = point_at(ball, random.between(-1, 1), random.between(0, 6.2831853), 1.0);
+            if (!strip.holds(p.x, p.depth)) continue;
+            seen = {std::min(seen.low, p.depth), std::max(seen.high, p.depth)};
+        }
+        if (seen.empty()) continue;
+        const Interval depths = cut_wedge(strip.wedge(), ball.center.x, ball.center.depth, ball.radius).depths;
+        found += depths.high - depths.low;
+        sampled += seen.high - seen.low;
+        whole += 2.0 * ball.radius;
+    }
+    EXPECT_LT(found, 1.1 * sampled);
+    EXPECT_GT(whole, 1.05 * found) << "the whole range must be looser";
+}
+
+// The nearest point of both half-spaces, by alternating projections with corrections (Dykstra): no formula in common.
+double distance_to_both(double h, double k, double g) {
+    // In the plane of the normals, the centre at the origin: m = (1, 0), n = (g, s).
+    const double s = std::sqrt(1.0 - g * g);
+    double x = 0.0, y = 0.0, on_m = 0.0, on_n = 0.0;
+    for (int i = 0; i < 20000; ++i) {
+        const double lack_m = std::max(-(h + x - on_m), 0.0);
+        x += lack_m - on_m;
+        on_m = lack_m;
+        const double lack_n = std::max(-(k + g * (x - g * on_n) + s * (y - s * on_n)), 0.0);
+        x += g * (lack_n - on_n);
+        y += s * (lack_n - on_n);
+        on_n = lack_n;
+    }
+    return std::hypot(x, y);
+}
+
+TEST(Narrow, MissesACornerExactlyWhereItsEdgeIsNearestAndOutOfReach) {
+    Random random(23);
+    int missed = 0;
+    int kept = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const double g = random.between(-0.9, 0.9);
+        const WedgeCut column = {{0, 1}, random.between(-2, 1), 1.0};
+        const WedgeCut row = {{0, 1}, random.between(-2, 1), g};
+        const double nearest = distance_to_both(column.distance, row.distance, g);
+        const double faces = std::max(-column.distance, -row.distance);
+        if (!(nearest > 1e-3)) continue;
+        const bool edge = nearest > std::max(faces, 0.0) * (1.0 + 1e-6);
+        EXPECT_FALSE(misses_corner(column, row, nearest * (1.0 + 1e-5))) << i;
+        EXPECT_EQ(misses_corner(column, row, nearest * (1.0 - 1e-5)), edge) << i;
+        ++(edge ? missed : kept);
+    }
+    EXPECT_GT(missed, 300);
+    EXPECT_GT(kept, 100);
+}
+
+TEST(Narrow, TakesEveryMagnitude) {
+    for (const double scale : {1e-18, 1.0, 1e18, 3e38}) {
+        const TileWedge wedge = detail::tile_wedge({500.0, 500.0, 1000}, 480, 511, 0.5);
+        const WedgeCut inside = detail::cut_wedge(wedge, 0.0, 2.0 * scale, scale);
+        EXPECT_LE(inside.depths.low, scale);
+        EXPECT_GE(inside.depths.high, 3.0 * scale);
+        EXPECT_TRUE(detail::cut_wedge(wedge, scale, 2.0 * scale, 0.5 * scale).depths.empty());
+        const WedgeCut around = detail::cut_wedge(wedge, scale, -2.0 * scale, 50.0 * scale);
+        EXPECT_FALSE(around.depths.empty());
+        EXPECT_FALSE(misses_corner(around, around, 50.0 * scale));
+    }
+}
+
+} // namespace
+} // namespace manylights::test
