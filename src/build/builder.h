@@ -55,8 +55,7 @@ Outcome arrange(ManylightsBuilder& builder);
 std::uint32_t first_tile_px(const ManylightsBuilder& builder);
 Fit arrange_windows(ManylightsBuilder& builder, bool has_to_do);
 
-// Windows: the parts of write.
-void write_window_views(const ManylightsBuilder& builder, const ManylightsBuffers& buffers);
+// Windows: headers, entries and references of these tiles, a part of write.
 void write_window_tiles(const ManylightsBuilder& builder, std::uint64_t begin, std::uint64_t end,
                         const ManylightsBuffers& buffers);
 

@@ -125,31 +125,7 @@ void write_tile_references(const Windows& windows, std::uint64_t begin, std::uin
     }
 }
 
-MlView describe_view(const ManylightsBuilder& builder, std::uint32_t index) {
-    const Grid& grid = builder.grids[index];
-    const WindowView& windows = builder.windows.views[index];
-    MlView view{};
-    view.width = grid.width;
-    view.height = grid.height;
-    view.tile_px = grid.tile_px;
-    view.tiles_x = grid.tiles_x;
-    view.tiles_y = grid.tiles_y;
-    view.cell_offset = static_cast<MlUint>(windows.cell_offset);
-    view.cell_count = static_cast<MlUint>(windows.cell_count);
-    view.structure = ML_STRUCTURE_WINDOWS;
-    view.depth_scale = windows.depth_scale;
-    return view;
-}
-
 } // namespace
-
-void write_window_views(const ManylightsBuilder& builder, const ManylightsBuffers& buffers) {
-    auto* views = static_cast<MlView*>(buffers.views);
-    for (std::uint32_t v = 0; v < builder.view_count; ++v) {
-        const MlView view = describe_view(builder, v);
-        std::memcpy(views + v, &view, sizeof(view));
-    }
-}
 
 void write_window_tiles(const ManylightsBuilder& builder, std::uint64_t begin, std::uint64_t end,
                         const ManylightsBuffers& buffers) {

@@ -19,11 +19,18 @@ MlView describe_view(const ManylightsBuilder& builder, std::uint32_t index) {
     view.tile_px = grid.tile_px;
     view.tiles_x = grid.tiles_x;
     view.tiles_y = grid.tiles_y;
-    view.slice_count = grid.slice_count;
-    view.slice_offset = index * (grid.slice_count + 1);
+    view.structure = builder.settings.structure;
+    if (has_windows(builder)) {
+        const WindowView& windows = builder.windows.views[index];
+        view.cell_offset = static_cast<MlUint>(windows.cell_offset);
+        view.cell_count = static_cast<MlUint>(windows.cell_count);
+        view.depth_scale = windows.depth_scale;
+        return view;
+    }
     view.cell_offset = static_cast<MlUint>(grid.cell_offset);
     view.cell_count = static_cast<MlUint>(grid.cell_count);
-    view.structure = builder.settings.structure;
+    view.slice_count = grid.slice_count;
+    view.slice_offset = index * (grid.slice_count + 1);
     view.slice_scale = builder.slices.scale;
     view.slice_bias = builder.slices.bias;
     return view;
@@ -36,7 +43,8 @@ void write_views(const ManylightsBuilder& builder, const ManylightsBuffers& buff
     for (std::uint32_t v = 0; v < builder.view_count; ++v) {
         const MlView view = describe_view(builder, v);
         std::memcpy(views + v, &view, sizeof(view));
-        std::memcpy(edges + v * edge_count, builder.slices.edges, edge_count * sizeof(float));
+        if (!has_windows(builder))
+            std::memcpy(edges + v * edge_count, builder.slices.edges, edge_count * sizeof(float));
     }
 }
 
@@ -94,7 +102,7 @@ void write_references(const ManylightsBuilder& builder, std::uint64_t begin, std
 void write_window_task(void* context, std::uint32_t task) {
     const auto& job = *static_cast<const WriteJob*>(context);
     const ManylightsBuilder& builder = *job.builder;
-    if (task == 0) write_window_views(builder, *job.buffers);
+    if (task == 0) write_views(builder, *job.buffers);
     write_window_tiles(builder, first_cell_of_task(builder, task), first_cell_of_task(builder, task + 1), *job.buffers);
 }
 
