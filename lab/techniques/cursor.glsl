@@ -7,14 +7,15 @@ layout(std430, set = 0, binding = 8) readonly buffer Cells { MlCell d[]; } cells
 layout(std430, set = 0, binding = 9) readonly buffer Nodes { uvec4 d[]; } nodes;
 layout(std430, set = 0, binding = 10) readonly buffer References { uint d[]; } references;
 
+// Units of 16 bytes: a node is one, and two cells are (of windows: a tile's header, or entries). Both kinds are numbered
+// in turn, so that none is taken for the other.
 MlNode touched_node(uint i) {
-    touch_node(i);
+    touch_node(2u * i);
     return ml_node_from_words(nodes.d[i]);
 }
 
-// Cells count where they are read instead of nodes: the headers and entries of windows, two to a unit of 16 bytes.
 MlCell touched_cell(uint i) {
-    if (views.d[0].structure == ML_STRUCTURE_WINDOWS) touch_node(i >> 1u);
+    touch_node((i & ~1u) + 1u);
     return cells.d[i];
 }
 

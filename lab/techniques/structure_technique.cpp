@@ -40,10 +40,12 @@ TechniqueInfo structure_technique_info(const char* name, const char* summary, St
     return info;
 }
 
+QueryShaders cursor_shaders() { return {kRecordCode, kShadeCode, kLogCode}; }
+
 StructureTechnique::StructureTechnique(gpu::Device& device, TechniqueInfo info, StructureKind kind,
-                                       const OptionValues& values)
+                                       const OptionValues& values, const QueryShaders& shaders)
     : device_(device), info_(std::move(info)), producer_(make_producer(read_structure_options(info_, kind, values))),
-      buffers_(device), pass_(device, {info_.name, kRecordCode, kShadeCode, kLogCode, 5}, LightSplit::none) {}
+      buffers_(device), pass_(device, {info_.name, shaders.record, shaders.shade, shaders.log, 5}, LightSplit::none) {}
 
 void StructureTechnique::prepare(const Frame& frame) {
     lights_.emplace(device_, frame);

@@ -1,6 +1,6 @@
 #pragma once
-// A technique whose structure has the library's format: a producer on the CPU, the common shading pass with the
-// library's query. The techniques of this kind differ in their options and in what the producer builds.
+// A technique whose structure has the library's format: a producer on the CPU, the common shading pass with a query of
+// the library. The techniques of this kind differ in their options, in what the producer builds and in their query.
 
 #include "lab/techniques/shading_pass.h"
 #include "lab/techniques/structure_buffers.h"
@@ -9,9 +9,18 @@
 
 namespace manylights::lab {
 
+/// The forms of a shader that walks the structure; its five buffers follow the common ones, as in cursor.glsl.
+struct QueryShaders {
+    std::span<const std::uint32_t> record, shade, log;
+};
+/// The library's per-pixel cursor: cursor.glsl.
+QueryShaders cursor_shaders();
+
 class StructureTechnique : public Technique {
   public:
-    StructureTechnique(gpu::Device& device, TechniqueInfo info, StructureKind kind, const OptionValues& values);
+    /// info lists the options of the kind, and those that the technique reads itself.
+    StructureTechnique(gpu::Device& device, TechniqueInfo info, StructureKind kind, const OptionValues& values,
+                       const QueryShaders& shaders = cursor_shaders());
 
     const TechniqueInfo& info() const override { return info_; }
     void prepare(const Frame& frame) override;

@@ -36,7 +36,7 @@ struct MlCursor {
     MlUint step_y;
 #if defined(ML_COUNTERS)
     MlUint tested;     // lights handed out
-    MlUint nodes;      // nodes read; windows: headers and entries
+    MlUint nodes;      // cells and nodes read; windows: headers and entries
     MlUint references; // references read
 #endif
 };
@@ -73,6 +73,9 @@ ML_FN MlUint ml_cell_index(ML_IN(MlView) view, MlFloat2 position, float depth) {
 
 ML_FN void ml_begin_cell(ML_IN(MlView) view, MlFloat2 position, ML_INOUT(MlCursor) cursor) {
     MlCell cell = ML_CELL(ml_cell_index(view, position, cursor.depth));
+#if defined(ML_COUNTERS)
+    cursor.nodes += 1u;
+#endif
     bool is_list = view.structure == ML_STRUCTURE_LISTS;
     cursor.reference = is_list ? cell.first : 0u;
     cursor.reference_end = is_list ? cell.first + cell.count : 0u;

@@ -44,8 +44,8 @@ TEST_F(Switches, AlwaysListTestsWhatClusteredTests) {
     const Work lists = work_with({.heuristic = Heuristic::always_list});
     const Work clustered = work_with({.structure = Structure::clustered});
     EXPECT_EQ(lists.tested, clustered.tested);
-    EXPECT_EQ(lists.nodes, points_.size());
-    EXPECT_EQ(clustered.nodes, 0u);
+    EXPECT_EQ(lists.nodes, 2 * points_.size()) << "a cell and the list's node";
+    EXPECT_EQ(clustered.nodes, points_.size()) << "a cell";
 }
 
 // One light at depth 100, asked for at 95: in its slice, [79.2, 107.7), but in front of it.
