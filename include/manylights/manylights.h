@@ -113,7 +113,7 @@ typedef struct ManylightsView {
 
 /* How lights are organised. All of them answer the same shader query. */
 typedef enum ManylightsStructure {
-    MANYLIGHTS_STRUCTURE_DEFAULT = 0, /* hybrid */
+    MANYLIGHTS_STRUCTURE_DEFAULT = 0, /* windows */
     MANYLIGHTS_STRUCTURE_LISTS =
         1, /* a list per cell of a tile x slice grid: practical clustered shading, Persson 2013 */
     MANYLIGHTS_STRUCTURE_TREES =
@@ -133,9 +133,9 @@ typedef void (*ManylightsParallelFor)(void* user, uint32_t count, ManylightsTask
 typedef struct ManylightsSettings {
     size_t size;                 /* sizeof(ManylightsSettings) */
     uint32_t structure;          /* a ManylightsStructure */
-    uint32_t tile_px;            /* edge of a tile in pixels, [8, 65536]; default 48. Windows: chosen for each plan, 32
+    uint32_t tile_px;            /* edge of a tile in pixels, [8, 65536]; default, windows: chosen for each plan, 32
                                     (24 from 500,000 visible lights), doubled while a light has more than 12
-                                    references on average */
+                                    references on average; the others: 48 */
     uint32_t slice_count;        /* depth slices of lists and hybrid, [1, 128]; default 16 */
     uint32_t leaf_size;          /* most lights in a tree's leaf, [1, 65535]; default 4 */
     float slice_near;            /* end of the first slice, > 0; default 5 */

@@ -45,7 +45,7 @@ Outcome resolve_settings(const ManylightsSettings* given, Settings& settings) {
     if (given == nullptr) given = &all_defaults;
     if (Outcome outcome = check_ranges(*given); !outcome.ok()) return outcome;
 
-    settings.structure = or_default<std::uint32_t>(given->structure, MANYLIGHTS_STRUCTURE_HYBRID);
+    settings.structure = or_default<std::uint32_t>(given->structure, MANYLIGHTS_STRUCTURE_WINDOWS);
     const bool windows = settings.structure == MANYLIGHTS_STRUCTURE_WINDOWS;
     settings.tile_px = or_default(given->tile_px, windows ? 0u : 48u);
     settings.slice_count = or_default(given->slice_count, 16u);

@@ -62,14 +62,14 @@ TEST(Create, TakesDefaultsForNullAndForZeros) {
     EXPECT_EQ(manylights_create(nullptr, &builder, nullptr), MANYLIGHTS_OK);
     const BuilderPtr defaults(builder);
     Frame frame = build_frame(builder, {make_view()}, {});
+    EXPECT_EQ(frame.views[0].structure, ML_STRUCTURE_WINDOWS);
+    EXPECT_EQ(frame.views[0].tile_px, 32u);
+
+    const BuilderPtr hybrid = make_builder(settings_of(MANYLIGHTS_STRUCTURE_HYBRID));
+    frame = build_frame(hybrid.get(), {make_view()}, {});
     EXPECT_EQ(frame.views[0].structure, ML_STRUCTURE_HYBRID);
     EXPECT_EQ(frame.views[0].tile_px, 48u);
     EXPECT_EQ(frame.views[0].slice_count, 16u);
-
-    const BuilderPtr windows = make_builder(settings_of(MANYLIGHTS_STRUCTURE_WINDOWS));
-    frame = build_frame(windows.get(), {make_view()}, {});
-    EXPECT_EQ(frame.views[0].structure, ML_STRUCTURE_WINDOWS);
-    EXPECT_EQ(frame.views[0].tile_px, 32u);
 
     ManylightsReport report{};
     EXPECT_EQ(manylights_create(nullptr, nullptr, &report), MANYLIGHTS_INVALID_ARGUMENT);
