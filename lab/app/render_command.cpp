@@ -88,7 +88,10 @@ Panel make_panel(Workbench& bench, const std::string& name, const RenderArgument
         panel.measurement.light_set_hash = light_set_hash(records);
         panel.values = values_of(records, arguments.view);
     }
-    if (!arguments.stats.empty()) panel.measurement.waves = technique->waves(bench.frame());
+    if (!arguments.stats.empty()) {
+        panel.measurement.waves = technique->waves(bench.frame());
+        panel.measurement.references_in_range = technique->references_in_range(bench.frame());
+    }
     if (arguments.view == ViewKind::structure) {
         panel.classes = classes_of(*technique, bench.frame());
         drop_sky(panel.classes, bench.shaded_mask());

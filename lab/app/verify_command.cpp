@@ -48,7 +48,10 @@ Verdict judge(Workbench& bench, Technique& technique, const std::vector<PixelRec
     m.light_set_hash = light_set_hash(records);
     m.missing_points = verdict.result.missing_points;
     m.wrong = !verdict.result.exact();
-    if (!arguments.stats.empty()) m.waves = technique.waves(frame);
+    if (!arguments.stats.empty()) {
+        m.waves = technique.waves(frame);
+        m.references_in_range = technique.references_in_range(frame);
+    }
     return verdict;
 }
 

@@ -10,16 +10,20 @@ namespace manylights::lab::suites {
 namespace {
 
 struct QualityScene {
+    const char* key; ///< what --scenes selects it by
     const char* name;
     const char* file; ///< in the folder of real scenes; null: built in
     const char* distribution;
+    bool is_overlap = false; ///< each light covers tens of tiles: one number of lights, and the cameras alone
 };
 
-// Lights in the volume or near surfaces, as algorithms and papers measured scenes of their kinds.
-constexpr QualityScene kScenes[] = {{"canyon", nullptr, "volume"},
-                                    {"citadel", nullptr, "surface"},
-                                    {"bars", nullptr, "volume"},
-                                    {"sponza", "sponza/sponza.glb", "surface"}};
+// Lights in the volume or near surfaces, as algorithms and papers measured scenes of their kinds, and lights of 0.5 to 5 m
+// spread evenly over 200 m of the view.
+constexpr QualityScene kScenes[] = {{"canyon", "canyon", nullptr, "volume"},
+                                    {"citadel", "citadel", nullptr, "surface"},
+                                    {"bars", "bars", nullptr, "volume"},
+                                    {"sponza", "sponza", "sponza/sponza.glb", "surface"},
+                                    {"view", "canyon", nullptr, "view", true}};
 
 constexpr std::uint32_t kCameras = 4, kPathFrames = 16;
 
@@ -59,6 +63,12 @@ Plan plan_of(const SuiteOptions& options) {
     };
     if (!wanted("cameras")) plan.cameras.clear();
     if (!wanted("path")) plan.frames.clear();
+    return plan;
+}
+
+Plan overlap_plan(Plan plan, const SuiteOptions& options) {
+    if (options.lights.empty()) plan.lights = plan.main_lights = {65536};
+    plan.frames.clear();
     return plan;
 }
 
@@ -109,7 +119,7 @@ std::vector<QualityScene> scenes_of(const SuiteOptions& options) {
     std::vector<QualityScene> scenes;
     for (const QualityScene& scene : kScenes)
         if (options.scenes.empty() ||
-            std::find(options.scenes.begin(), options.scenes.end(), scene.name) != options.scenes.end())
+            std::find(options.scenes.begin(), options.scenes.end(), scene.key) != options.scenes.end())
             scenes.push_back(scene);
     return scenes;
 }
@@ -123,7 +133,7 @@ void check_names(const char* option, const std::vector<std::string>& names, cons
 
 void check_options(const SuiteOptions& options) {
     std::vector<std::string> scenes;
-    for (const QualityScene& scene : kScenes) scenes.emplace_back(scene.name);
+    for (const QualityScene& scene : kScenes) scenes.emplace_back(scene.key);
     check_names("--scenes", options.scenes, scenes);
     check_names("--views", options.views, std::vector<std::string>{"cameras", "path"});
 }
@@ -148,7 +158,7 @@ CaseList quality_cases(const SuiteOptions& options) {
         c.width = plan.width;
         c.height = plan.height;
         c.techniques = techniques_of(options);
-        add_cases(list.cases, c, plan);
+        add_cases(list.cases, c, scene.is_overlap ? overlap_plan(plan, options) : plan);
     }
     return list;
 }

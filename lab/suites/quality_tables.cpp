@@ -60,7 +60,7 @@ bool all_right(const Rows& rows) {
 // Ratios are of the means over the views, so that a view in which hardly any light affects a point does not decide.
 Table work_table(const Group& group) {
     Table table(fmt::format("{}, mean of {} cameras", group.title, group.cameras.front().second.size()),
-                {"technique", "tested / affecting", "tested / px", "p95", "nodes / px", "references", "KiB", "wave 64",
+                {"technique", "tested / affecting", "tested / px", "p95", "nodes / px", "compared / in range", "references", "KiB", "wave 64",
                  "wave 32", "wave 64, b c / 2", "b c x 2", "wave 64 p99", "union tested / union affecting"});
     for (const auto& [name, rows] : group.cameras) {
         if (!all_right(rows)) {
@@ -69,7 +69,9 @@ Table work_table(const Group& group) {
         }
         table.add({name, ratio(mean(rows, "tested_mean"), mean(rows, "affecting_mean")),
                    number(mean(rows, "tested_mean")), number(mean(rows, "tested_p95")),
-                   number(mean(rows, "nodes_mean")), fmt::format("{:.0f}", mean(rows, "references")),
+                   number(mean(rows, "nodes_mean")),
+                   ratio(mean(rows, "references_mean"), mean(rows, "references_in_range_mean")),
+                   fmt::format("{:.0f}", mean(rows, "references")),
                    fmt::format("{:.0f}", mean(rows, "structure_bytes") / 1024.0), number(mean(rows, "wave_cost_64")),
                    number(mean(rows, "wave_cost_32")), number(mean(rows, "wave_cost_64_half")),
                    number(mean(rows, "wave_cost_64_double")), number(mean(rows, "wave_cost_64_p99")),

@@ -50,6 +50,7 @@ void add_work(Row& row, const Measurement& m) {
     row["affecting_mean"] = m.work.affecting_mean;
     row["nodes_mean"] = m.work.nodes_mean;
     row["references_mean"] = m.work.references_mean;
+    if (m.references_in_range) row["references_in_range_mean"] = *m.references_in_range;
 }
 
 double per_wave(std::uint64_t sum, const WaveWork& work) {

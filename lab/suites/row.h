@@ -30,6 +30,7 @@ struct Measurement {
     OptionValues options; ///< as given
     WorkSummary work;
     std::optional<WaveSummary> waves;
+    std::optional<double> references_in_range;
     TechniqueStats stats;
     std::vector<double> cold_build_ms;
     std::vector<double> shade_over_exact; ///< of each round: this technique's time over that of `exact`

@@ -52,6 +52,7 @@ void Runner::count_work(TimedTechnique& timed, const Frame& frame, const Truth& 
     m.work = summarize(records);
     m.light_set_hash = light_set_hash(records);
     m.waves = timed.technique->waves(frame);
+    m.references_in_range = timed.technique->references_in_range(frame);
 }
 
 TimedTechnique Runner::measure(const TechniqueChoice& choice, const Frame& frame, const Truth& truth) {

@@ -30,6 +30,7 @@ constexpr Column kColumns[] = {
     {"affecting_mean", number, true},
     {"nodes_mean", number, true},
     {"references_mean", number, true},
+    {"references_in_range_mean", number, true},
     {"wave_cost_64", number, true},
     {"wave_cost_32", number, true},
     {"wave_cost_64_half", number, true},

@@ -43,6 +43,16 @@ CellClass joined(CellClass a, CellClass b) {
     return b == CellClass::none || b == a ? a : CellClass::mixed;
 }
 
+std::uint64_t references_holding(const HostStructure& structure, MlUint begin, MlUint end, MlUint code) {
+    const MlUint whole_tile = ml_pack_bounds(0, 0, 0, 15, 0, 15);
+    std::uint64_t count = 0;
+    for (MlUint reference = begin; reference < end; ++reference) {
+        const MlUint depths = structure.references[2 * std::size_t{reference} + 1] & 0xFFFFu;
+        if (ml_bounds_hold(depths | whole_tile, code, 0, 0)) ++count;
+    }
+    return count;
+}
+
 std::optional<std::uint64_t> affecting_reference_of(Query& query, std::size_t pixel, const PointPosition& point,
                                                     const LightStream& lights) {
     const MlFloat3 position{point.position.x, point.position.y, point.position.z};
@@ -81,6 +91,20 @@ std::vector<CellClass> classify_tiles(const HostStructure& structure, std::span<
     std::vector<CellClass> classes(points.size());
     for (std::size_t pixel = 0; pixel < points.size(); ++pixel) classes[pixel] = tiles[tile_of(pixel)];
     return classes;
+}
+
+double mean_references_in_range(const HostStructure& structure, std::span<const PointPosition> points) {
+    Query query{structure};
+    std::uint64_t references = 0, shaded = 0;
+    for (std::size_t pixel = 0; pixel < points.size(); ++pixel) {
+        if (points[pixel].depth == 0.0f) continue;
+        ++shaded;
+        const Query::MlCursor c =
+            query.ml_begin(structure.view, pixel_center(structure.view, pixel), points[pixel].depth);
+        references += references_holding(structure, c.reference, c.reference_end, c.depth_code >> c.shift);
+        references += references_holding(structure, c.node, c.node_end, c.depth_code >> c.large_shift);
+    }
+    return shaded == 0 ? 0.0 : static_cast<double>(references) / static_cast<double>(shaded);
 }
 
 std::optional<std::uint64_t> find_affecting_reference(const HostStructure& structure,

@@ -91,6 +91,12 @@ WaveSummary StructureTechnique::waves(const Frame& frame) {
     return pass_.waves(frame, lights_.value(), one_band(frame, buffers_.bindings()));
 }
 
+std::optional<double> StructureTechnique::references_in_range(const Frame& frame) {
+    const HostStructure structure(buffers_);
+    if (structure.view.structure != ML_STRUCTURE_WINDOWS) return std::nullopt;
+    return mean_references_in_range(structure, frame.points.download_positions());
+}
+
 std::vector<CellClass> StructureTechnique::classify(const Frame& frame) {
     return classify_tiles(HostStructure(buffers_), frame.points.download_positions());
 }

@@ -28,6 +28,7 @@ class StructureTechnique : public Technique {
     std::vector<PixelRecord> record(const Frame& frame) override;
     std::vector<float> shade(const Frame& frame) override;
     WaveSummary waves(const Frame& frame) override;
+    std::optional<double> references_in_range(const Frame& frame) override;
     std::vector<CellClass> classify(const Frame& frame) override;
     bool remove_one_reference(const Frame& frame) override;
 

@@ -177,6 +177,29 @@ TEST_F(Waves, of_structures_are_unions_of_what_the_query_touches) {
     }
 }
 
+// Where every rectangle is the whole tile, the query hands out what holds the depth, and nothing else.
+TEST_F(Waves, references_in_range_are_those_handed_out_whatever_their_rectangles) {
+    const View view = made_view(device(), 130, 75, 3000);
+    HostStructure structure = Built(device(), StructureKind::windows, view.frame()).on_host();
+    const double in_range = mean_references_in_range(structure, view.positions);
+    EXPECT_GT(in_range, 0.0);
+    for (std::size_t i = 1; i < structure.references.size(); i += 2)
+        structure.references[i] = (structure.references[i] & 0xFFFFu) | ml_pack_bounds(0, 0, 0, 15, 0, 15);
+    EXPECT_EQ(mean_references_in_range(structure, view.positions), in_range);
+    std::uint64_t handed_out = 0, shaded = 0;
+    Lanes lanes;
+    Query query{structure, lanes};
+    for (std::size_t pixel = 0; pixel < view.positions.size(); ++pixel) {
+        if (view.positions[pixel].depth == 0.0f) continue;
+        ++shaded;
+        const MlFloat2 center{static_cast<float>(pixel % view.width) + 0.5f,
+                              static_cast<float>(pixel / view.width) + 0.5f};
+        Query::MlCursor cursor = query.ml_begin(structure.view, center, view.positions[pixel].depth);
+        for (MlUint light = 0; query.ml_next(cursor, light);) ++handed_out;
+    }
+    EXPECT_EQ(in_range, static_cast<double>(handed_out) / static_cast<double>(shaded));
+}
+
 TEST_F(Waves, of_brute_force_test_every_light) {
     for (const ImageSize size : kSizes) {
         const View view = made_view(device(), size.width, size.height, 300);

@@ -36,6 +36,20 @@ TEST(QualityCases, cameras_for_every_count_and_the_path_for_the_main_ones) {
     EXPECT_EQ(timed, 3u * 2u * 4u);
 }
 
+TEST(QualityCases, the_overlap_is_looked_at_with_its_own_lights_and_without_the_path) {
+    SuiteOptions options;
+    options.scenes = {"view"};
+    const CaseList list = quality_cases(options);
+    ASSERT_EQ(list.cases.size(), 4u);
+    for (const Case& c : list.cases) {
+        EXPECT_EQ(c.scene.name, "canyon");
+        EXPECT_EQ(c.lights.distribution, "view");
+        EXPECT_EQ(c.lights.count, 65536u);
+        EXPECT_FALSE(c.view.on_path);
+        EXPECT_NE(c.rounds.shade, 0u);
+    }
+}
+
 TEST(QualityCases, quick_is_a_small_part) {
     SuiteOptions options = built_in_scenes();
     options.quick = true;

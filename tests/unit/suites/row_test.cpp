@@ -34,6 +34,7 @@ TEST(Row, keys_are_those_of_the_shared_schema_in_its_order) {
                                               "affecting_mean",
                                               "nodes_mean",
                                               "references_mean",
+                                              "references_in_range_mean",
                                               "wave_cost_64",
                                               "wave_cost_32",
                                               "wave_cost_64_half",
