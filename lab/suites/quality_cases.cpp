@@ -17,8 +17,8 @@ struct QualityScene {
     bool is_overlap = false; ///< each light covers tens of tiles: one number of lights, and the cameras alone
 };
 
-// Lights in the volume or near surfaces, as algorithms and papers measured scenes of their kinds, and lights of 0.5 to 5 m
-// spread evenly over 200 m of the view.
+// Lights in the volume or near surfaces, as algorithms and papers measured scenes of their kinds, and lights of 0.5 to
+// 5 m spread evenly over 200 m of the view.
 constexpr QualityScene kScenes[] = {{"canyon", "canyon", nullptr, "volume"},
                                     {"citadel", "citadel", nullptr, "surface"},
                                     {"bars", "bars", nullptr, "volume"},

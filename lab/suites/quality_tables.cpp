@@ -60,8 +60,9 @@ bool all_right(const Rows& rows) {
 // Ratios are of the means over the views, so that a view in which hardly any light affects a point does not decide.
 Table work_table(const Group& group) {
     Table table(fmt::format("{}, mean of {} cameras", group.title, group.cameras.front().second.size()),
-                {"technique", "tested / affecting", "tested / px", "p95", "nodes / px", "compared / in range", "references", "KiB", "wave 64",
-                 "wave 32", "wave 64, b c / 2", "b c x 2", "wave 64 p99", "union tested / union affecting"});
+                {"technique", "tested / affecting", "tested / px", "p95", "nodes / px", "compared / in range",
+                 "references", "KiB", "wave 64", "wave 32", "wave 64, b c / 2", "b c x 2", "wave 64 p99",
+                 "union tested / union affecting"});
     for (const auto& [name, rows] : group.cameras) {
         if (!all_right(rows)) {
             table.add({name, "WRONG"});

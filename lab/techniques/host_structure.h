@@ -26,8 +26,8 @@ struct HostStructure {
 /// lights do not count; a tile of windows is a list.
 std::vector<CellClass> classify_tiles(const HostStructure& structure, std::span<const PointPosition> points);
 
-/// Of windows: the references of a point's window whose depths hold the point's, wherever in the tile it is; the mean over
-/// the shaded points, 0 without any.
+/// Of windows: the references of a point's window whose depths hold the point's, wherever in the tile it is; the mean
+/// over the shaded points, 0 without any.
 double mean_references_in_range(const HostStructure& structure, std::span<const PointPosition> points);
 
 /// A reference, by the index of the word that names its light, to a light that affects a shaded point, as the point's

@@ -100,8 +100,8 @@ class Technique {
     /// What the sampled waves of this frame do: the modelled cost (docs/measuring.md). The same in every run.
     virtual WaveSummary waves(const Frame& frame) = 0;
 
-    /// Mean over the shaded points of the references that are read and whose own depths hold the point's: as few as could
-    /// be compared without a rectangle. Empty where references have no depths.
+    /// Mean over the shaded points of the references that are read and whose own depths hold the point's: as few as
+    /// could be compared without a rectangle. Empty where references have no depths.
     virtual std::optional<double> references_in_range(const Frame& frame);
 
     /// Per pixel of the image: which kind of cell a tile's pixels walk. Empty where the technique has no cells.

@@ -113,8 +113,11 @@ TEST(CutTile, SplitsClassesAndSlicesWhereThatSavesChecks) {
     EXPECT_EQ(ml_entry_cell_count(flat.form), 0u);
     const WindowTile one_class = cut(200, 0);
     EXPECT_EQ(one_class.form.two_classes, 0u);
-    EXPECT_GE(one_class.form.last_slice + 1, 75u) << "half of 3/4 of the references at least";
-    EXPECT_LE(one_class.form.last_slice + 1, 150u);
+    EXPECT_GE(one_class.form.last_slice + 1, 128u);
+    EXPECT_LE(one_class.form.last_slice + 1, ML_TILE_SLICES_MAX);
+    const WindowTile few = cut(20, 0);
+    EXPECT_GE(few.form.last_slice + 1, 15u) << "half of 3/2 of the references at least";
+    EXPECT_LE(few.form.last_slice + 1, 30u);
     const WindowTile split = cut(200, 20);
     EXPECT_EQ(split.form.two_classes, 1u);
     EXPECT_EQ(split.small_count, 180u);
