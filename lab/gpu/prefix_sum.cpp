@@ -16,8 +16,8 @@ constexpr std::uint32_t kAddCode[] =
 #include "prefix_sum_add.comp.inc"
     ;
 
-// Of both shaders: 256 lanes with 8 words each. kMaxCount words are 2^15 blocks, within the 65,535 workgroups that every
-// device allows, and three levels.
+// Of both shaders: 256 lanes with 8 words each. kMaxCount words are 2^15 blocks, within the 65,535 workgroups that
+// every device allows, and three levels.
 constexpr std::uint32_t kWordsPerBlock = 2048;
 
 std::uint32_t block_count(std::uint32_t words) { return group_count(words, kWordsPerBlock); }
