@@ -1,0 +1,346 @@
+// Depth mode of the technique depth_windows: what is left of windows is valid, hands every point what the whole
+// structure hands it, and is little more than that.
+
+#include "lab/renderer/renderer.h"
+#include "lab/scene/scene.h"
+#include "lab/techniques/depth_windows/depth_pruning.h"
+#include "lab/techniques/host_structure.h"
+#include "tests/parity/techniques_fixture.h"
+
+#include <manylights/manylights.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <set>
+
+namespace manylights::lab {
+
+namespace {
+
+struct Query {
+    const HostStructure& structure;
+#define ML_SLICE_EDGE(i) structure.slice_edges[i]
+#define ML_CELL(i) structure.cells.at(i)
+#define ML_NODE(i) structure.nodes[i]
+#define ML_REFERENCE(i) structure.references.at(i)
+#include <manylights/query.h>
+};
+
+// What a pixel's cursor is handed: places of references, and their lights.
+struct Handed {
+    std::vector<std::uint32_t> references, lights;
+};
+
+Handed handed_to(const HostStructure& structure, std::size_t pixel, float depth) {
+    Query query{structure};
+    const std::size_t width = structure.view.width;
+    const MlFloat2 position{static_cast<float>(pixel % width) + 0.5f, static_cast<float>(pixel / width) + 0.5f};
+    Query::MlCursor cursor = query.ml_begin(structure.view, position, depth);
+    Handed handed;
+    MlUint light = 0;
+    while (query.ml_next(cursor, light)) {
+        handed.references.push_back(cursor.reference - 1);
+        handed.lights.push_back(light);
+    }
+    return handed;
+}
+
+// The rule that the buffers break; empty where they are valid.
+std::string broken_rule(const BuiltStructure& built, std::uint32_t light_count) {
+    std::vector<std::uint32_t> words[5];
+    for (std::size_t i = 0; i < 5; ++i) words[i] = built.buffers[i]->download<std::uint32_t>();
+    const auto bytes = [&](std::size_t i) { return std::uint64_t{4} * words[i].size(); };
+    const ManylightsBuffers buffers{words[0].data(), words[1].data(), words[2].data(), words[3].data(),
+                                    words[4].data()};
+    const ManylightsSizes sizes{bytes(0), bytes(1), bytes(2), bytes(3), bytes(4)};
+    ManylightsSettings settings{};
+    settings.size = sizeof settings;
+    ManylightsBuilder* builder = nullptr;
+    ManylightsReport report{};
+    if (manylights_create(&settings, &builder, &report) != MANYLIGHTS_OK) return report.rule;
+    const ManylightsStatus status = manylights_validate(builder, &buffers, &sizes, light_count, &report);
+    manylights_destroy(builder);
+    return status == MANYLIGHTS_OK ? "" : std::string(report.field) + " " + report.rule;
+}
+
+struct Pruned {
+    HostStructure whole, left;
+    std::string broken; ///< of what is left
+    std::uint64_t references;
+
+    std::uint64_t whole_references() const { return whole.references.size() / 2; }
+};
+
+Pruned prune(gpu::Device& device, const Frame& frame, std::uint32_t tile_size) {
+    StructureOptions options;
+    options.kind = StructureKind::windows;
+    options.tile_size = tile_size;
+    const std::unique_ptr<Producer> producer = make_library_producer(options);
+    StructureBuffers buffers(device);
+    buffers.reserve(producer->plan(frame));
+    producer->write(buffers.targets());
+    buffers.finish();
+    DepthPruning pruning(device);
+    const BuiltStructure left =
+        pruning.prune(frame.points, {buffers.bindings(), producer->stats().references});
+    EXPECT_EQ(left.buffers[4]->bytes(), 8 * left.references);
+    return {HostStructure(buffers.bindings()), HostStructure(left.buffers),
+            broken_rule(left, static_cast<std::uint32_t>(frame.lights.size())), left.references};
+}
+
+bool is_subsequence(const std::vector<std::uint32_t>& part, const std::vector<std::uint32_t>& whole) {
+    auto next = part.begin();
+    for (const std::uint32_t element : whole)
+        if (next != part.end() && *next == element) ++next;
+    return next == part.end();
+}
+
+struct Kept {
+    std::size_t needed = 0; ///< references that the whole structure hands to some point
+    std::uint64_t handed = 0, handed_by_whole = 0;
+};
+
+// Every point's lights are all there, in the same order. Others may be between them: merged slices are wider than the
+// 256 units of a reference's depths were chosen for.
+Kept expect_all_handed(const Pruned& pruned, const std::vector<PointPosition>& points, const std::string& what) {
+    EXPECT_EQ(pruned.broken, "") << what;
+    std::set<std::uint32_t> needed;
+    Kept kept;
+    for (std::size_t pixel = 0; pixel < points.size(); ++pixel) {
+        if (points[pixel].depth == 0.0f) continue;
+        const Handed whole = handed_to(pruned.whole, pixel, points[pixel].depth);
+        const Handed left = handed_to(pruned.left, pixel, points[pixel].depth);
+        needed.insert(whole.references.begin(), whole.references.end());
+        kept.handed += left.lights.size();
+        kept.handed_by_whole += whole.lights.size();
+        if (is_subsequence(whole.lights, left.lights)) continue;
+        ADD_FAILURE() << what << ": pixel " << pixel << " lacks a light";
+        break;
+    }
+    kept.needed = needed.size();
+    EXPECT_GE(pruned.references, kept.needed) << what;
+    EXPECT_LE(pruned.references, pruned.whole_references()) << what;
+    return kept;
+}
+
+// What kinds of tiles there are, by what their forms say.
+std::map<std::string, int> kinds_of_tiles(const HostStructure& structure) {
+    std::map<std::string, int> kinds;
+    for (std::size_t tile = 0; tile < std::size_t{structure.view.tiles_x} * structure.view.tiles_y; ++tile) {
+        const MlUint packed = structure.cells[2 * tile + 1].count;
+        const MlTileForm form = ml_tile_form(packed);
+        const std::string classes = form.two_classes != 0 ? "two classes" : "one class";
+        if (packed == 0)
+            ++kinds["empty"];
+        else if (form.flat_count != 0)
+            ++kinds["flat"];
+        else
+            ++kinds[classes + (form.wide != 0 ? ", wide" : "")];
+    }
+    return kinds;
+}
+
+void set_points(View& view, const std::function<float(std::size_t pixel)>& depth_of) {
+    const CameraBasis basis = camera_basis(view.camera, view.width, view.height);
+    for (std::size_t pixel = 0; pixel < view.positions.size(); ++pixel) {
+        const float depth = depth_of(pixel);
+        const float x = 2.0f * (static_cast<float>(pixel % view.width) + 0.5f) / static_cast<float>(view.width) - 1.0f;
+        const float y =
+            1.0f - 2.0f * (static_cast<float>(pixel / view.width) + 0.5f) / static_cast<float>(view.height);
+        const glm::vec3 ray = basis.forward + basis.right * (x * basis.tan_half_x) + basis.up * (y * basis.tan_half_y);
+        view.positions[pixel] = {ray * depth, depth};
+    }
+    view.points.positions().upload(view.positions);
+}
+
+// A light at a place of the image, from 0 to 1 to the right and downwards.
+Light light_at(const View& view, float across, float down, float depth, float range) {
+    const CameraBasis basis = camera_basis(view.camera, view.width, view.height);
+    const glm::vec3 ray = basis.forward + basis.right * ((2.0f * across - 1.0f) * basis.tan_half_x) +
+                          basis.up * ((1.0f - 2.0f * down) * basis.tan_half_y);
+    const glm::vec3 center = view.camera.position + ray * depth;
+    Light light;
+    light.sphere = {{center.x, center.y, center.z}, range};
+    return light;
+}
+
+std::set<std::uint32_t> lights_left(const Pruned& pruned) {
+    std::set<std::uint32_t> lights;
+    for (std::size_t i = 0; i < pruned.left.references.size(); i += 2) lights.insert(pruned.left.references[i]);
+    return lights;
+}
+
+std::set<std::uint32_t> numbers(std::uint32_t first, std::uint32_t end) {
+    std::set<std::uint32_t> result;
+    for (std::uint32_t i = first; i < end; ++i) result.insert(i);
+    return result;
+}
+
+class DepthWindows : public TechniquesTest {};
+
+} // namespace
+
+TEST_F(DepthWindows, hand_every_point_what_the_whole_structure_does) {
+    std::map<std::string, int> kinds;
+    for (const auto& [width, height] : {std::pair{1u, 1u}, {47u, 33u}, {97u, 60u}}) {
+        for (const std::uint32_t count : {0u, 1u, 33u, 1500u, 6000u}) {
+            const View view = made_view(device(), width, height, count);
+            for (const std::uint32_t tile_size : {8u, 13u, 32u, 4096u}) {
+                const Pruned pruned = prune(device(), view.frame(), tile_size);
+                const std::string what = std::to_string(width) + " pixels wide, " + std::to_string(count) +
+                                         " lights, tiles of " + std::to_string(tile_size);
+                expect_all_handed(pruned, view.positions, what);
+                for (const auto& [kind, tiles] : kinds_of_tiles(pruned.left)) kinds[kind] += tiles;
+            }
+        }
+    }
+    for (const char* kind : {"empty", "flat", "one class", "two classes"}) EXPECT_GT(kinds[kind], 0) << kind;
+}
+
+// More references in a tile than 16 bits count: all of them needed, or few.
+TEST_F(DepthWindows, become_narrow_where_few_references_are_left) {
+    View view = made_view(device(), 24, 24, 75000);
+    const auto kind_of = [&](const char* what) {
+        const Pruned pruned = prune(device(), view.frame(), 4096);
+        expect_all_handed(pruned, view.positions, what);
+        EXPECT_GT(pruned.whole_references(), 65536u);
+        return kinds_of_tiles(pruned.left).begin()->first;
+    };
+    EXPECT_EQ(kind_of("all points"), "two classes, wide");
+    std::vector<PointPosition> points = view.positions;
+    set_points(view, [&](std::size_t pixel) { return pixel < 40 ? points[pixel].depth : 0.0f; });
+    EXPECT_EQ(kind_of("some points"), "two classes");
+}
+
+TEST_F(DepthWindows, of_the_sky_are_empty) {
+    View view = made_view(device(), 97, 60, 1500);
+    set_points(view, [](std::size_t) { return 0.0f; });
+    const Pruned pruned = prune(device(), view.frame(), 16);
+    EXPECT_EQ(pruned.broken, "");
+    EXPECT_GT(pruned.whole_references(), 1000u);
+    EXPECT_EQ(pruned.references, 0u);
+    EXPECT_EQ(kinds_of_tiles(pruned.left), (std::map<std::string, int>{{"empty", 7 * 4}}));
+    EXPECT_EQ(pruned.left.cells.size(), 2u * 7 * 4) << "no entries";
+}
+
+// One tile with two layers of points, and lights at them and between them.
+TEST_F(DepthWindows, lose_lights_between_layers_of_points) {
+    View view = made_view(device(), 32, 32, 0);
+    set_points(view, [](std::size_t pixel) { return pixel % 2 == 0 ? 10.0f : 100.0f; });
+    for (std::uint32_t i = 0; i < 90; ++i) {
+        const float place = 0.1f + 0.008f * static_cast<float>(i);
+        view.lights.push_back(light_at(view, place, place, i < 30 ? 10.0f : i < 60 ? 100.0f : 50.0f, 1.0f));
+    }
+    const Pruned pruned = prune(device(), view.frame(), 32);
+    expect_all_handed(pruned, view.positions, "two layers");
+    EXPECT_EQ(pruned.whole_references(), 90u);
+    EXPECT_EQ(lights_left(pruned), numbers(0, 60));
+}
+
+// The near layer is on the left and the far one on the right: what is at a layer's depth on the other's side goes.
+TEST_F(DepthWindows, lose_lights_beside_the_points_of_their_depth) {
+    View view = made_view(device(), 32, 32, 0);
+    set_points(view, [](std::size_t pixel) { return pixel % 32 < 16 ? 10.0f : 100.0f; });
+    for (std::uint32_t i = 0; i < 40; ++i) {
+        const float down = 0.1f + 0.02f * static_cast<float>(i);
+        view.lights.push_back(light_at(view, i % 2 == 0 ? 0.2f : 0.8f, down, i < 20 ? 10.0f : 100.0f, 0.5f));
+    }
+    const Pruned pruned = prune(device(), view.frame(), 32);
+    expect_all_handed(pruned, view.positions, "left and right");
+    EXPECT_EQ(pruned.whole_references(), 40u);
+    std::set<std::uint32_t> expected;
+    for (std::uint32_t i = 0; i < 40; ++i)
+        if ((i < 20) == (i % 2 == 0)) expected.insert(i);
+    EXPECT_EQ(lights_left(pruned), expected);
+}
+
+// Where one class is left it takes the place of both, in its own units.
+TEST_F(DepthWindows, lose_a_class_without_references) {
+    for (const bool keeps_small : {true, false}) {
+        View view = made_view(device(), 32, 32, 0);
+        for (std::uint32_t i = 0; i < 400; ++i) {
+            const auto step = static_cast<float>(i);
+            const bool is_small = i % 2 == 0;
+            const float depth = is_small == keeps_small ? 20.0f + 0.05f * step : 150.0f + 0.1f * step;
+            view.lights.push_back(light_at(view, 0.5f, 0.5f, depth, is_small ? 0.3f : 8.0f));
+        }
+        set_points(view, [](std::size_t pixel) { return 18.0f + static_cast<float>(pixel % 23); });
+        const Pruned pruned = prune(device(), view.frame(), 32);
+        const Kept kept = expect_all_handed(pruned, view.positions, keeps_small ? "small lights" : "large lights");
+        EXPECT_EQ(kinds_of_tiles(pruned.whole), (std::map<std::string, int>{{"two classes", 1}}));
+        EXPECT_EQ(kinds_of_tiles(pruned.left), (std::map<std::string, int>{{"one class", 1}}));
+        EXPECT_GT(kept.handed, 50u);
+        for (const std::uint32_t light : lights_left(pruned)) EXPECT_EQ(light % 2 == 0, keeps_small);
+    }
+}
+
+TEST_F(DepthWindows, of_scenes_keep_hardly_more_than_points_need) {
+    const std::pair<const char*, const char*> scenes[] = {
+        {"canyon", "volume"}, {"citadel", "surface"}, {"bars", "volume"}, {"cornell", "groups"}};
+    for (const auto& [name, distribution] : scenes) {
+        const Scene scene = load_scene(name, Detail::low);
+        LightOptions options;
+        options.count = 20000;
+        options.distribution = distribution;
+        for (const Camera& camera : {scene.cameras.front(), scene.cameras.back()}) {
+            const PointBuffer points = Renderer(device(), scene).render_points(camera, 160, 90);
+            const LightSet set = make_lights(scene, camera, options);
+            const Frame frame{scene, camera, 160, 90, set.lights, points};
+            const Pruned pruned = prune(device(), frame, 8);
+            const Kept kept = expect_all_handed(pruned, points.download_positions(), name);
+            const double left = static_cast<double>(pruned.references);
+            EXPECT_LT(left, 1.1 * static_cast<double>(kept.needed)) << name;
+            EXPECT_LT(static_cast<double>(kept.handed), 1.1 * static_cast<double>(kept.handed_by_whole)) << name;
+            if (name == std::string("cornell")) continue; // a box without depth: its points need most lights
+            EXPECT_LT(left, 0.4 * static_cast<double>(pruned.whole_references())) << name;
+            EXPECT_LT(pruned.left.cells.size(), pruned.whole.cells.size()) << name;
+        }
+    }
+}
+
+TEST_F(DepthWindows, are_reported_as_they_are_left) {
+    const View view = made_view(device(), 97, 60, 1500);
+    const auto technique_with = [&](const char* depth) {
+        std::unique_ptr<Technique> technique = make_technique(device(), "depth_windows", {{"depth", depth}});
+        technique->prepare(view.frame());
+        technique->rebuild(view.frame());
+        return technique;
+    };
+    const Pruned pruned = prune(device(), view.frame(), 32);
+    const std::unique_ptr<Technique> on = technique_with("on"), off = technique_with("off");
+    EXPECT_EQ(on->stats().references, pruned.references);
+    EXPECT_EQ(on->stats().structure_bytes,
+              sizeof(MlView) + sizeof(MlCell) * pruned.left.cells.size() + 8 * pruned.references);
+    EXPECT_LT(on->stats().references, off->stats().references);
+    EXPECT_LT(on->stats().structure_bytes, off->stats().structure_bytes);
+    EXPECT_EQ(on->stats().build_ms.size(), 2u);
+    EXPECT_EQ(on->stats().stages.size(), off->stats().stages.size() + 1);
+    EXPECT_EQ(on->stats().stages.back().name, "depth");
+    EXPECT_EQ(on->stats().stages.back().ms.size(), 2u);
+    EXPECT_TRUE(on->info().needs_depth);
+    EXPECT_FALSE(on->info().serves_translucent || on->info().serves_air);
+    EXPECT_FALSE(off->info().needs_depth);
+}
+
+// A frame with fewer lights behind one with many, and again: into the same buffers or into others.
+TEST_F(DepthWindows, are_the_same_bytes_in_every_build) {
+    const View many = made_view(device(), 97, 60, 1500), few = made_view(device(), 97, 60, 40);
+    const auto technique = make_technique(device(), "depth_windows", {{"depth", "on"}});
+    const auto records_with = [&](const View& view) {
+        technique->prepare(view.frame());
+        technique->rebuild(view.frame());
+        return technique->record(view.frame());
+    };
+    const auto work = [](const std::vector<PixelRecord>& records) {
+        std::vector<std::uint32_t> counts;
+        for (const PixelRecord& record : records)
+            counts.insert(counts.end(), {record.hash_a, record.tested, record.nodes, record.references});
+        return counts;
+    };
+    const std::vector<std::uint32_t> first = work(records_with(many));
+    EXPECT_NE(work(records_with(few)), first);
+    EXPECT_EQ(work(records_with(many)), first);
+}
+
+} // namespace manylights::lab
