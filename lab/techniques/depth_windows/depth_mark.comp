@@ -70,24 +70,32 @@ void fill_bins(SourceTile source, uint pixel_count, uint shift) {
     }
 }
 
-// The slices whose windows hold a reference are in a row, for the ends of windows never go back.
-uvec2 slices_with(SourceTile source, uint reference) {
+// The window of the reference's class.
+uvec2 window_of(SourceTile source, uint reference, uint slice) {
+    MlWindow window = ml_read_window(source.tile, source.form, slice);
     bool is_small = reference < source.small_count;
-    uint first = 0u, end = source.form.last_slice; // the first whose window ends behind the reference
+    return is_small ? uvec2(window.small_first, window.small_last) : uvec2(window.large_first, window.large_last);
+}
+
+// Those of the slices with points whose windows hold the reference; the first is behind the last where none does. They
+// are in a row, for the ends of windows never go back: they begin where windows end behind the reference, and end with
+// the last window that does not begin behind it.
+uvec2 slices_with(SourceTile source, uint reference, uvec2 span) {
+    if (window_of(source, reference, span.x).x > reference || window_of(source, reference, span.y).y <= reference)
+        return uvec2(1u, 0u);
+    uint first = span.x, end = span.y;
     while (first < end) {
         uint middle = (first + end) / 2u;
-        MlWindow window = ml_read_window(source.tile, source.form, middle);
-        if ((is_small ? window.small_last : window.large_last) > reference)
+        if (window_of(source, reference, middle).y > reference)
             end = middle;
         else
             first = middle + 1u;
     }
-    uint last = first; // the last whose window does not begin behind it
-    end = source.form.last_slice + 1u;
+    uint last = first;
+    end = span.y + 1u;
     while (last + 1u < end) {
         uint middle = (last + end) / 2u;
-        MlWindow window = ml_read_window(source.tile, source.form, middle);
-        if ((is_small ? window.small_first : window.large_first) <= reference)
+        if (window_of(source, reference, middle).x <= reference)
             last = middle;
         else
             end = middle;
@@ -109,15 +117,13 @@ bool rectangle_meets(uint bounds, uint bin) {
     return (bin & across) != 0u && ((bin >> 16u) & down) != 0u;
 }
 
-bool is_needed(SourceTile source, uint reference, uint bin_shift) {
+bool is_needed(SourceTile source, uint reference, uvec2 span, uint bin_shift) {
+    uvec2 slices = slices_with(source, reference, span);
+    if (slices.x > slices.y) return false;
+    uint near = max(source.tile.base_code + (slices.x << source.form.slice_shift), first_code);
+    uint far = min(source.tile.base_code + ((slices.y + 1u) << source.form.slice_shift) - 1u, last_code);
     uint bounds = references.d[2u * (source.tile.first_reference + reference) + 1u];
     uint unit_shift = reference < source.small_count ? source.form.small_shift : source.form.large_shift;
-    uvec2 slices = slices_with(source, reference);
-    uint near = source.tile.base_code + (slices.x << source.form.slice_shift);
-    uint far = source.tile.base_code + ((slices.y + 1u) << source.form.slice_shift) - 1u;
-    near = max(near, first_code);
-    far = min(far, last_code);
-    if (near > far) return false;
     for (uint bin = (near - first_code) >> bin_shift; bin <= (far - first_code) >> bin_shift; ++bin) {
         if (!rectangle_meets(bounds, bins[bin])) continue;
         uint bin_near = max(near, first_code + (bin << bin_shift));
@@ -144,9 +150,12 @@ void main() {
     while (first_code <= last_code && (last_code - first_code) >> bin_shift >= kBins) bin_shift += 1u;
     fill_bins(source, pixel_count, bin_shift);
     barrier();
+    bool has_points = first_code <= last_code;
+    uvec2 span = (uvec2(first_code, last_code) - source.tile.base_code) >> source.form.slice_shift;
     for (uint reference = lane; reference < source.reference_count; reference += kLanes)
-        kept.d[source.tile.first_reference + reference] = is_needed(source, reference, bin_shift) ? 1u : 0u;
+        kept.d[source.tile.first_reference + reference] =
+            has_points && is_needed(source, reference, span, bin_shift) ? 1u : 0u;
     if (lane != 0u) return;
-    spans.d[index] = (uvec2(first_code, last_code) - source.tile.base_code) >> source.form.slice_shift;
+    spans.d[index] = span;
     if (index == 0u) kept.d[reference_count] = 0u;
 }
