@@ -5,6 +5,7 @@
 #include "lab/scene/scene.h"
 #include "lab/techniques/depth_windows/depth_pruning.h"
 #include "lab/techniques/host_structure.h"
+#include "lab/techniques/verification.h"
 #include "tests/parity/techniques_fixture.h"
 
 #include <manylights/manylights.h>
@@ -317,6 +318,27 @@ TEST_F(DepthWindows, of_scenes_keep_hardly_more_than_points_need) {
             if (name == std::string("cornell")) continue; // a box without depth: its points need most lights
             EXPECT_LT(left, 0.4 * static_cast<double>(pruned.whole_references())) << name;
             EXPECT_LT(pruned.left.cells.size(), pruned.whole.cells.size()) << name;
+        }
+    }
+}
+
+TEST_F(DepthWindows, are_exact_in_every_scene) {
+    LightOptions options;
+    options.count = 3000;
+    for (const SceneInfo& info : builtin_scenes()) {
+        const Scene scene = load_scene(info.name, Detail::low);
+        const Camera& camera = scene.cameras.back();
+        const PointBuffer points = Renderer(device(), scene).render_points(camera, 101, 57);
+        for (const char* distribution : {"volume", "surface", "view"}) {
+            options.distribution = distribution;
+            const LightSet set = make_lights(scene, camera, options);
+            const Frame frame{scene, camera, 101, 57, set.lights, points};
+            const std::vector<PixelRecord> truth = records_of(device(), kBruteForce, frame);
+            for (const char* tile_size : {"8", "27", "64", "4096"}) {
+                const Variant variant{"", "depth_windows", {{"depth", "on"}, {"tile_size", tile_size}}};
+                EXPECT_TRUE(compare(truth, records_of(device(), variant, frame), 101).exact())
+                    << info.name << ", " << distribution << ", tiles of " << tile_size;
+            }
         }
     }
 }
