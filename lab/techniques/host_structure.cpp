@@ -70,10 +70,10 @@ std::optional<std::uint64_t> affecting_reference_of(Query& query, std::size_t pi
 
 } // namespace
 
-HostStructure::HostStructure(const StructureBuffers& buffers)
-    : view(buffers.host_copy<MlView>(0).at(0)), slice_edges(buffers.host_copy<float>(1)),
-      cells(buffers.host_copy<MlCell>(2)), nodes(buffers.host_copy<MlNode>(3)),
-      references(buffers.host_copy<std::uint32_t>(4)) {}
+HostStructure::HostStructure(const StructureBindings& buffers)
+    : view(buffers[0]->download<MlView>().at(0)), slice_edges(buffers[1]->download<float>()),
+      cells(buffers[2]->download<MlCell>()), nodes(buffers[3]->download<MlNode>()),
+      references(buffers[4]->download<std::uint32_t>()) {}
 
 std::vector<CellClass> classify_tiles(const HostStructure& structure, std::span<const PointPosition> points) {
     const MlView& view = structure.view;

@@ -13,7 +13,7 @@ namespace manylights::lab {
 struct PointPosition;
 
 struct HostStructure {
-    explicit HostStructure(const StructureBuffers& buffers);
+    explicit HostStructure(const StructureBindings& buffers);
 
     MlView view{};
     std::vector<float> slice_edges;

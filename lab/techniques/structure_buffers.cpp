@@ -2,14 +2,11 @@
 
 #include "lab/gpu/commands.h"
 
-#include <numeric>
-
 namespace manylights::lab {
 
 namespace {
 
 constexpr std::uint32_t kPoison = 0xCDCDCDCD;
-constexpr std::size_t kReferences = 4;
 constexpr const char* kNames[5] = {"structure views", "structure slice edges", "structure cells", "structure nodes",
                                    "structure references"};
 
@@ -23,7 +20,6 @@ void StructureBuffers::reserve(const ManylightsSizes& sizes) {
     const std::array<std::uint64_t, 5> bytes = size_list(sizes);
     if (!mapped_.empty() && bytes == sizes_) return;
     sizes_ = bytes;
-    bytes_ = std::accumulate(bytes.begin(), bytes.end(), std::uint64_t{0});
     mapped_.clear();
     local_.clear();
     for (std::size_t i = 0; i < bytes.size(); ++i) {
@@ -47,11 +43,6 @@ void StructureBuffers::finish() {
     for (std::size_t i = 0; i < mapped_.size(); ++i)
         if (mapped_[i].bytes() != 0) commands.copy(mapped_[i], local_[i], mapped_[i].bytes());
     commands.submit_and_wait("upload of the structure");
-}
-
-void StructureBuffers::overwrite_reference(std::uint64_t index, std::uint32_t light) {
-    mapped_[kReferences].upload(std::span<const std::uint32_t>(&light, 1), index * sizeof light);
-    finish();
 }
 
 } // namespace manylights::lab

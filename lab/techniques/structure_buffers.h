@@ -10,6 +10,9 @@
 
 namespace manylights::lab {
 
+/// The five buffers of a structure on the device, in the order of ManylightsSizes, of exactly those sizes.
+using StructureBindings = std::array<gpu::Buffer*, 5>;
+
 class StructureBuffers {
   public:
     explicit StructureBuffers(gpu::Device& device) : device_(device) {}
@@ -20,22 +23,14 @@ class StructureBuffers {
     ManylightsBuffers targets() const; ///< where the producer writes
     void finish();                     ///< hands what was written to the device
 
-    const std::array<const gpu::Buffer*, 5>& bindings() const { return bindings_; }
-    std::uint64_t bytes() const { return bytes_; }
-    /// Reads the buffer number i (order of ManylightsSizes) back.
-    template <typename T>
-    std::vector<T> host_copy(std::size_t i) const {
-        return mapped_[i].template download<T>();
-    }
-    void overwrite_reference(std::uint64_t index, std::uint32_t light);
+    const StructureBindings& bindings() const { return bindings_; }
 
   private:
     gpu::Device& device_;
     std::vector<gpu::Buffer> mapped_;
     std::vector<gpu::Buffer> local_; ///< copies in the device's own memory; empty on a software device
-    std::array<const gpu::Buffer*, 5> bindings_{};
+    StructureBindings bindings_{};
     std::array<std::uint64_t, 5> sizes_{};
-    std::uint64_t bytes_ = 0;
 };
 
 } // namespace manylights::lab

@@ -3,7 +3,9 @@
 #include "lab/renderer/point_buffer.h"
 #include "lab/techniques/host_structure.h"
 
+#include <algorithm>
 #include <chrono>
+#include <numeric>
 
 namespace manylights::lab {
 
@@ -40,6 +42,11 @@ TechniqueInfo structure_technique_info(const char* name, const char* summary, St
     return info;
 }
 
+std::uint64_t BuiltStructure::bytes() const {
+    return std::accumulate(buffers.begin(), buffers.end(), std::uint64_t{0},
+                           [](std::uint64_t sum, const gpu::Buffer* buffer) { return sum + buffer->bytes(); });
+}
+
 QueryShaders cursor_shaders() { return {kRecordCode, kShadeCode, kLogCode}; }
 
 StructureTechnique::StructureTechnique(gpu::Device& device, TechniqueInfo info, StructureKind kind,
@@ -51,10 +58,9 @@ void StructureTechnique::prepare(const Frame& frame) {
     lights_.emplace(device_, frame);
     stats_ = {};
     rebuild(frame);
-    const ProducerStats built = producer_->stats();
-    stats_.visible_lights = built.visible_lights;
-    stats_.references = built.references;
-    stats_.structure_bytes = buffers_.bytes();
+    stats_.visible_lights = producer_->stats().visible_lights;
+    stats_.references = structure_.references;
+    stats_.structure_bytes = structure_.bytes();
 }
 
 // The time is the producer's alone: the lab's own allocation and its patterns are left out.
@@ -65,6 +71,7 @@ void StructureTechnique::rebuild(const Frame& frame) {
     const double write_ms = milliseconds_of([&] { producer_->write(buffers_.targets()); });
     buffers_.finish();
     add_times(plan_ms, write_ms);
+    structure_ = refine(frame, {buffers_.bindings(), producer_->stats().references});
 }
 
 void StructureTechnique::add_times(double plan_ms, double write_ms) {
@@ -72,40 +79,44 @@ void StructureTechnique::add_times(double plan_ms, double write_ms) {
     std::vector<StageTime> stages = producer_->stages();
     if (stages.empty()) stages.push_back({"plan", plan_ms});
     stages.push_back({"write", write_ms});
-    stats_.stages.resize(stages.size());
-    for (std::size_t i = 0; i < stages.size(); ++i) {
-        stats_.stages[i].name = stages[i].name;
-        stats_.stages[i].ms.push_back(stages[i].ms);
-    }
+    for (const StageTime& stage : stages) add_stage(stage.name, stage.ms);
+}
+
+void StructureTechnique::add_stage(const std::string& name, double ms) {
+    auto stage = std::ranges::find(stats_.stages, name, &NamedTimes::name);
+    if (stage == stats_.stages.end()) stage = stats_.stages.insert(stage, {name, {}});
+    stage->ms.push_back(ms);
 }
 
 std::vector<PixelRecord> StructureTechnique::record(const Frame& frame) {
-    return pass_.record(frame, lights_.value(), one_band(frame, buffers_.bindings()));
+    return pass_.record(frame, lights_.value(), one_band(frame, structure_.buffers));
 }
 
 std::vector<float> StructureTechnique::shade(const Frame& frame) {
-    return pass_.shade(frame, lights_.value(), one_band(frame, buffers_.bindings()), stats_.shade_ms);
+    return pass_.shade(frame, lights_.value(), one_band(frame, structure_.buffers), stats_.shade_ms);
 }
 
 WaveSummary StructureTechnique::waves(const Frame& frame) {
-    return pass_.waves(frame, lights_.value(), one_band(frame, buffers_.bindings()));
+    return pass_.waves(frame, lights_.value(), one_band(frame, structure_.buffers));
 }
 
 std::optional<double> StructureTechnique::references_in_range(const Frame& frame) {
-    const HostStructure structure(buffers_);
+    const HostStructure structure(structure_.buffers);
     if (structure.view.structure != ML_STRUCTURE_WINDOWS) return std::nullopt;
     return mean_references_in_range(structure, frame.points.download_positions());
 }
 
 std::vector<CellClass> StructureTechnique::classify(const Frame& frame) {
-    return classify_tiles(HostStructure(buffers_), frame.points.download_positions());
+    return classify_tiles(HostStructure(structure_.buffers), frame.points.download_positions());
 }
 
 // The reference becomes one to the padding light behind the last, which affects nothing.
 bool StructureTechnique::remove_one_reference(const Frame& frame) {
     const LightStream& lights = lights_.value().stream;
-    const auto reference = find_affecting_reference(HostStructure(buffers_), frame.points.download_positions(), lights);
-    if (reference) buffers_.overwrite_reference(*reference, lights.light_count());
+    const auto reference =
+        find_affecting_reference(HostStructure(structure_.buffers), frame.points.download_positions(), lights);
+    const std::uint32_t padding = lights.light_count();
+    if (reference) structure_.buffers[4]->upload(std::span(&padding, 1), *reference * sizeof padding);
     return reference.has_value();
 }
 

@@ -16,6 +16,14 @@ struct QueryShaders {
 /// The library's per-pixel cursor: cursor.glsl.
 QueryShaders cursor_shaders();
 
+/// A structure as the passes read it.
+struct BuiltStructure {
+    StructureBindings buffers{};
+    std::uint64_t references = 0;
+
+    std::uint64_t bytes() const;
+};
+
 class StructureTechnique : public Technique {
   public:
     /// info lists the options of the kind, and those that the technique reads itself.
@@ -32,6 +40,15 @@ class StructureTechnique : public Technique {
     std::vector<CellClass> classify(const Frame& frame) override;
     bool remove_one_reference(const Frame& frame) override;
 
+  protected:
+    /// What a technique makes of the producer's structure on the device, in buffers of its own, before anything reads
+    /// it. As it is, by default.
+    virtual BuiltStructure refine(const Frame&, const BuiltStructure& built) { return built; }
+    /// Adds a time to the stage of this name, a new one behind those that are there.
+    void add_stage(const std::string& name, double ms);
+
+    const BuiltStructure& structure() const { return structure_; }
+
   private:
     void add_times(double plan_ms, double write_ms);
 
@@ -39,6 +56,7 @@ class StructureTechnique : public Technique {
     TechniqueInfo info_;
     std::unique_ptr<Producer> producer_;
     StructureBuffers buffers_;
+    BuiltStructure structure_;
     std::optional<FrameLights> lights_;
     ShadingPass pass_;
 };

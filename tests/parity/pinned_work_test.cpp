@@ -29,6 +29,7 @@ struct PinnedWork {
     const char* scene;
     const char* technique;
     Work work;
+    bool has_depth = false; ///< the option depth of depth_windows
 };
 
 /// Tiles of 8 pixels, so that the small images have 4x3 of them; everything else as it is by default.
@@ -39,24 +40,28 @@ constexpr PinnedWork kPinnedWork[] = {
     {"canyon", "tiled_light_trees", {26807, 24082, 26807, 4096, 6561, 99948, 2271, 510, 1600, 0}},
     {"canyon", "hybrid_light_trees", {28346, 5844, 28346, 4096, 10849, 116808, 2268, 510, 960, 0}},
     {"canyon", "depth_windows", {8284, 970, 23505, 4096, 6490, 71728, 839, 510, 104, 2060}},
+    {"canyon", "depth_windows", {8284, 970, 15720, 4096, 864, 9680, 839, 510, 93, 861}, true},
     {"citadel", "brute_force", {1110016, 0, 0, 4096, 0, 0, 40960, 336, 0, 0}},
     {"citadel", "exact", {2221, 0, 2221, 191, 2221, 13100, 336, 336, 0, 0}},
     {"citadel", "clustered", {12570, 271, 12570, 3195, 12654, 52284, 1835, 336, 33, 0}},
     {"citadel", "tiled_light_trees", {9947, 10138, 9947, 3195, 7688, 130056, 1128, 336, 884, 0}},
     {"citadel", "hybrid_light_trees", {10353, 1574, 10353, 3195, 12654, 167484, 1119, 336, 574, 0}},
     {"citadel", "depth_windows", {4168, 542, 8170, 3195, 7545, 65056, 558, 336, 44, 1058}},
+    {"citadel", "depth_windows", {4168, 542, 6977, 3195, 567, 5504, 558, 336, 40, 567}, true},
     {"bars", "brute_force", {2093056, 0, 0, 4096, 0, 0, 49152, 701, 0, 0}},
     {"bars", "exact", {3966, 0, 3966, 391, 3966, 20080, 701, 701, 0, 0}},
     {"bars", "clustered", {37737, 511, 37737, 3250, 12893, 53240, 4346, 701, 74, 0}},
     {"bars", "tiled_light_trees", {29393, 25000, 29393, 3250, 6331, 101076, 3150, 701, 2106, 0}},
     {"bars", "hybrid_light_trees", {30999, 5838, 30999, 3250, 12893, 145512, 3138, 701, 1686, 0}},
     {"bars", "depth_windows", {8368, 1022, 22203, 3250, 6153, 53144, 1216, 701, 89, 2914}},
+    {"bars", "depth_windows", {8368, 1022, 15190, 3250, 1244, 12200, 1216, 701, 88, 1244}, true},
     {"cornell", "brute_force", {1183744, 0, 0, 4096, 0, 0, 36864, 1333, 0, 0}},
     {"cornell", "exact", {1749, 0, 1749, 1284, 1749, 11212, 1333, 1333, 0, 0}},
     {"cornell", "clustered", {87725, 289, 87725, 4096, 7941, 33432, 5055, 1333, 24, 0}},
     {"cornell", "tiled_light_trees", {43382, 31264, 43382, 4096, 5351, 86916, 3543, 1333, 2306, 0}},
     {"cornell", "hybrid_light_trees", {42853, 30168, 42853, 4096, 7941, 121640, 3532, 1333, 2714, 0}},
     {"cornell", "depth_windows", {5666, 578, 50523, 4096, 5326, 44880, 2176, 1333, 40, 3855}},
+    {"cornell", "depth_windows", {5666, 562, 34462, 4096, 2366, 20232, 2176, 1333, 38, 2366}, true},
 };
 
 class PinnedWorkTest : public TechniquesTest, public testing::WithParamInterface<PinnedWork> {};
@@ -86,15 +91,20 @@ Work work_of(const std::vector<PixelRecord>& records, const TechniqueStats& stat
     return work;
 }
 
+OptionValues options_of(const PinnedWork& pinned) {
+    const std::string name = pinned.technique;
+    if (name == "brute_force" || name == "exact") return {};
+    OptionValues options{{"tile_size", "8"}};
+    if (pinned.has_depth) options.emplace_back("depth", "on");
+    return options;
+}
+
 TEST_P(PinnedWorkTest, is_what_is_pinned) {
     const PinnedView& pinned = view_of(GetParam());
     const LoadedView view = load_view(pinned);
     const PointBuffer points = restore_points(device(), view.saved, material_records(view.scene));
     const Frame frame{view.scene, view.saved.camera, view.saved.width, view.saved.height, view.lights, points};
-    const std::string name = GetParam().technique;
-    const bool has_tiles = name != "brute_force" && name != "exact";
-    const std::unique_ptr<Technique> technique =
-        make_technique(device(), name, has_tiles ? OptionValues{{"tile_size", "8"}} : OptionValues{});
+    const std::unique_ptr<Technique> technique = make_technique(device(), GetParam().technique, options_of(GetParam()));
     technique->prepare(frame);
     const std::vector<PixelRecord> records = technique->record(frame);
     EXPECT_EQ(light_set_hash(records), pinned.light_set_hash) << std::hex << light_set_hash(records);
@@ -102,7 +112,8 @@ TEST_P(PinnedWorkTest, is_what_is_pinned) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Views, PinnedWorkTest, testing::ValuesIn(kPinnedWork), [](const auto& pinned) {
-    return std::string(pinned.param.scene) + "_" + pinned.param.technique;
+    const std::string name = std::string(pinned.param.scene) + "_" + pinned.param.technique;
+    return pinned.param.has_depth ? name + "_depth" : name;
 });
 
 class SavedPointsTest : public TechniquesTest {};

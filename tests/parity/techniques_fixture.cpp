@@ -96,6 +96,7 @@ std::vector<Variant> structure_variants() {
             {"tiled_light_trees", "tiled_light_trees", {}},
             {"hybrid_light_trees", "hybrid_light_trees", {}},
             {"depth_windows", "depth_windows", {}},
+            {"depth_windows_depth", "depth_windows", {{"depth", "on"}}},
             {"clustered_paper", "clustered", {{"producer", "paper"}}},
             {"tiled_light_trees_paper", "tiled_light_trees", {{"producer", "paper"}}},
             {"hybrid_light_trees_paper", "hybrid_light_trees", {{"producer", "paper"}}}};

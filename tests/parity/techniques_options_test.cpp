@@ -38,7 +38,7 @@ TEST_F(TechniquesTest, unknown_option_names_the_keys) {
                  {"clustered", "leaf_size", "tile_size", "producer"});
     expect_words(refusal(device(), "tiled_light_trees", {{"slice_count", "4"}}), {"slice_count", "leaf_size"});
     for (const char* key : {"slice_count", "leaf_size", "producer"})
-        expect_words(refusal(device(), "depth_windows", {{key, "4"}}), {"depth_windows", key, "tile_size"});
+        expect_words(refusal(device(), "depth_windows", {{key, "4"}}), {"depth_windows", key, "tile_size", "depth"});
     for (const char* name : {"brute_force", "exact"})
         expect_words(refusal(device(), name, {{"tile_size", "48"}}), {name, "tile_size"});
 }
@@ -54,6 +54,8 @@ TEST_F(TechniquesTest, values_out_of_range_name_the_range) {
     for (const char* value : {"0", "-5", "nan", "inf", "far"})
         expect_words(refusal(device(), "clustered", {{"slice_near", value}}), {"slice_near", value});
     expect_words(refusal(device(), "clustered", {{"producer", "magic"}}), {"producer", "magic", "library", "paper"});
+    for (const char* value : {"1", "yes", ""})
+        expect_words(refusal(device(), "depth_windows", {{"depth", value}}), {"depth_windows", "depth=", "off, on"});
     const OptionValues heuristic{{"producer", "paper"}, {"heuristic", "f"}};
     expect_words(refusal(device(), "hybrid_light_trees", heuristic), {"heuristic", "f", "a, b, c, d, e, lists"});
 }

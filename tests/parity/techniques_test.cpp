@@ -296,6 +296,9 @@ TEST_F(TechniquesTest, every_size_of_the_structure_is_exact) {
         {"windows of 8 pixels", "depth_windows", {{"tile_size", "8"}}},
         {"windows of 13 pixels", "depth_windows", {{"tile_size", "13"}}},
         {"windows of the whole image", "depth_windows", {{"tile_size", "4096"}}},
+        {"windows of 8 pixels by depth", "depth_windows", {{"tile_size", "8"}, {"depth", "on"}}},
+        {"windows of 13 pixels by depth", "depth_windows", {{"tile_size", "13"}, {"depth", "on"}}},
+        {"windows of the whole image by depth", "depth_windows", {{"tile_size", "4096"}, {"depth", "on"}}},
     };
     for (const Variant& variant : variants)
         expect_exact(compare(truth, records_of(device(), variant, view.frame()), view.width), variant.label);

@@ -116,7 +116,7 @@ class Built {
         producer->write(buffers_.targets());
         buffers_.finish();
     }
-    HostStructure on_host() const { return HostStructure(buffers_); }
+    HostStructure on_host() const { return HostStructure(buffers_.bindings()); }
     std::vector<PassBand> band(const Frame& frame) const { return one_band(frame, buffers_.bindings()); }
 
   private:
