@@ -5,8 +5,8 @@
 //     sort.reserve(count);
 //     sort.record(commands, keys, values, count, 20);   by the lowest 20 bits of the keys
 //
-// Least significant digit first, four bits to a pass: blocks count their digits, a prefix sum over all counts says where
-// the keys of each digit and block begin, and each block deals its own keys out in order.
+// Least significant digit first, four bits to a pass: blocks count their digits, a prefix sum over all counts says
+// where the keys of each digit and block begin, and each block deals its own keys out in order.
 
 #include "lab/gpu/prefix_sum.h"
 
