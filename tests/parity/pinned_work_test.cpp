@@ -29,6 +29,7 @@ struct PinnedWork {
     const char* scene;
     const char* technique;
     Work work;
+    bool is_tight_wave = false; ///< with 64 slices, tight cells and lists walked by waves
 };
 
 /// Tiles of 8 pixels, so that the small images have 4x3 of them; everything else as it is by default.
@@ -36,24 +37,28 @@ constexpr PinnedWork kPinnedWork[] = {
     {"canyon", "brute_force", {1990656, 0, 0, 4096, 0, 0, 49152, 510, 0, 0}},
     {"canyon", "exact", {3873, 0, 3873, 223, 3873, 19708, 510, 510, 0, 0}},
     {"canyon", "clustered", {37188, 486, 37188, 4096, 10849, 45064, 2996, 510, 52, 0}},
+    {"canyon", "clustered", {20143, 486, 20143, 4096, 19330, 83788, 2182, 510, 91, 0}, true},
     {"canyon", "tiled_light_trees", {26807, 24082, 26807, 4096, 6561, 99948, 2271, 510, 1600, 0}},
     {"canyon", "hybrid_light_trees", {28346, 5844, 28346, 4096, 10849, 116808, 2268, 510, 960, 0}},
     {"canyon", "depth_windows", {8288, 970, 25665, 4096, 6490, 66064, 840, 510, 92, 2164}},
     {"citadel", "brute_force", {1110016, 0, 0, 4096, 0, 0, 40960, 336, 0, 0}},
     {"citadel", "exact", {2221, 0, 2221, 191, 2221, 13100, 336, 336, 0, 0}},
     {"citadel", "clustered", {12570, 271, 12570, 3195, 12654, 52284, 1835, 336, 33, 0}},
+    {"citadel", "clustered", {6066, 271, 6066, 3217, 22160, 95108, 1009, 336, 80, 0}, true},
     {"citadel", "tiled_light_trees", {9947, 10138, 9947, 3195, 7688, 130056, 1128, 336, 884, 0}},
     {"citadel", "hybrid_light_trees", {10353, 1574, 10353, 3195, 12654, 167484, 1119, 336, 574, 0}},
     {"citadel", "depth_windows", {4205, 542, 9407, 3195, 7545, 62904, 562, 336, 36, 1160}},
     {"bars", "brute_force", {2093056, 0, 0, 4096, 0, 0, 49152, 701, 0, 0}},
     {"bars", "exact", {3966, 0, 3966, 391, 3966, 20080, 701, 701, 0, 0}},
     {"bars", "clustered", {37737, 511, 37737, 3250, 12893, 53240, 4346, 701, 74, 0}},
+    {"bars", "clustered", {18000, 511, 18000, 3280, 23832, 101796, 2887, 701, 109, 0}, true},
     {"bars", "tiled_light_trees", {29393, 25000, 29393, 3250, 6331, 101076, 3150, 701, 2106, 0}},
     {"bars", "hybrid_light_trees", {30999, 5838, 30999, 3250, 12893, 145512, 3138, 701, 1686, 0}},
     {"bars", "depth_windows", {8395, 1022, 26439, 3250, 6153, 51432, 1217, 701, 68, 3158}},
     {"cornell", "brute_force", {1183744, 0, 0, 4096, 0, 0, 36864, 1333, 0, 0}},
     {"cornell", "exact", {1749, 0, 1749, 1284, 1749, 11212, 1333, 1333, 0, 0}},
     {"cornell", "clustered", {87725, 289, 87725, 4096, 7941, 33432, 5055, 1333, 24, 0}},
+    {"cornell", "clustered", {44283, 289, 44283, 4096, 15851, 69872, 3548, 1333, 32, 0}, true},
     {"cornell", "tiled_light_trees", {43382, 31264, 43382, 4096, 5351, 86916, 3543, 1333, 2306, 0}},
     {"cornell", "hybrid_light_trees", {42853, 30168, 42853, 4096, 7941, 121640, 3532, 1333, 2714, 0}},
     {"cornell", "depth_windows", {5673, 578, 54753, 4096, 5326, 44136, 2181, 1333, 36, 4102}},
@@ -93,8 +98,10 @@ TEST_P(PinnedWorkTest, is_what_is_pinned) {
     const Frame frame{view.scene, view.saved.camera, view.saved.width, view.saved.height, view.lights, points};
     const std::string name = GetParam().technique;
     const bool has_tiles = name != "brute_force" && name != "exact";
-    const std::unique_ptr<Technique> technique =
-        make_technique(device(), name, has_tiles ? OptionValues{{"tile_size", "8"}} : OptionValues{});
+    OptionValues options = has_tiles ? OptionValues{{"tile_size", "8"}} : OptionValues{};
+    if (GetParam().is_tight_wave)
+        options.insert(options.end(), {{"slice_count", "64"}, {"cell_test", "tight"}, {"loop", "wave"}});
+    const std::unique_ptr<Technique> technique = make_technique(device(), name, options);
     technique->prepare(frame);
     const std::vector<PixelRecord> records = technique->record(frame);
     EXPECT_EQ(light_set_hash(records), pinned.light_set_hash) << std::hex << light_set_hash(records);
@@ -102,7 +109,8 @@ TEST_P(PinnedWorkTest, is_what_is_pinned) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Views, PinnedWorkTest, testing::ValuesIn(kPinnedWork), [](const auto& pinned) {
-    return std::string(pinned.param.scene) + "_" + pinned.param.technique;
+    return std::string(pinned.param.scene) + "_" + pinned.param.technique +
+           (pinned.param.is_tight_wave ? "_tight_wave" : "");
 });
 
 class SavedPointsTest : public TechniquesTest {};
