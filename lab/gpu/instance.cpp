@@ -91,7 +91,9 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical) {
     info.max_image_size = properties.limits.maxImageDimension2D;
     const auto& subgroups = chain.get<vk::PhysicalDeviceVulkan11Properties>();
     info.subgroup_size = subgroups.subgroupSize;
-    info.subgroup_arithmetic = (subgroups.subgroupSupportedOperations & vk::SubgroupFeatureFlagBits::eArithmetic) &&
+    const vk::SubgroupFeatureFlags wanted = vk::SubgroupFeatureFlagBits::eVote | vk::SubgroupFeatureFlagBits::eBallot |
+                                            vk::SubgroupFeatureFlagBits::eArithmetic;
+    info.subgroup_operations = (subgroups.subgroupSupportedOperations & wanted) == wanted &&
                                (subgroups.subgroupSupportedStages & vk::ShaderStageFlagBits::eCompute);
     return info;
 }
