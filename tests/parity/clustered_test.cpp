@@ -1,9 +1,15 @@
 // The options of `clustered` that make it a rival: what they may change, and what they must not.
 
+#include "lab/techniques/host_structure.h"
+#include "lab/techniques/producer.h"
+#include "lab/techniques/shading_pass.h"
 #include "lab/techniques/summary.h"
 #include "tests/parity/techniques_fixture.h"
 
+#include <algorithm>
 #include <cstring>
+#include <map>
+#include <set>
 
 namespace manylights::lab {
 
@@ -19,6 +25,33 @@ OptionValues with(OptionValues options, const char* key, const char* value) {
     options.emplace_back(key, value);
     return options;
 }
+
+constexpr std::uint32_t kStepsCode[] =
+#include "wave_loop_steps.comp.inc"
+    ;
+
+struct Query {
+    const HostStructure& structure;
+#define ML_SLICE_EDGE(i) structure.slice_edges[i]
+#define ML_CELL(i) structure.cells[i]
+#define ML_NODE(i) structure.nodes[i]
+#define ML_REFERENCE(i) structure.references[i]
+#include <manylights/query.h>
+};
+
+void add_list(const View& view, const HostStructure& structure, std::size_t pixel, std::set<MlUint>& lights) {
+    Query query{structure};
+    const MlFloat2 center{static_cast<float>(pixel % view.width) + 0.5f, static_cast<float>(pixel / view.width) + 0.5f};
+    Query::MlCursor cursor = query.ml_begin(structure.view, center, view.positions[pixel].depth);
+    MlUint light = 0;
+    while (query.ml_next(cursor, light)) lights.insert(light);
+}
+
+/// Of a wave: the lights of its lanes' lists, and the most that any of its lanes saw loaded.
+struct WaveSteps {
+    std::set<MlUint> lights;
+    std::uint32_t steps = 0;
+};
 
 class Clustered : public TechniquesTest {
   protected:
@@ -44,14 +77,15 @@ class Clustered : public TechniquesTest {
 } // namespace
 
 TEST_F(Clustered, loop_of_waves_gives_the_pixels_of_the_loop_of_lanes) {
+    const auto check = [this](ImageSize size, std::uint32_t lights, const char* tile_size) {
+        SCOPED_TRACE(std::to_string(size.width) + "x" + std::to_string(size.height) + ", " + std::to_string(lights) +
+                     " lights, tiles of " + tile_size);
+        expect_same_pixels(made_view(device(), size.width, size.height, lights),
+                           {{"producer", "paper"}, {"tile_size", tile_size}, {"slice_count", "64"}});
+    };
     for (const ImageSize size : kSizes)
-        for (const std::uint32_t lights : {0u, 1u, 700u})
-            for (const char* tile_size : {"8", "11", "48"}) {
-                SCOPED_TRACE(std::to_string(size.width) + "x" + std::to_string(size.height) + ", " +
-                             std::to_string(lights) + " lights, tiles of " + tile_size);
-                expect_same_pixels(made_view(device(), size.width, size.height, lights),
-                                   {{"producer", "paper"}, {"tile_size", tile_size}, {"slice_count", "64"}});
-            }
+        for (const char* tile_size : {"11", "48"}) check(size, 700, tile_size);
+    for (const std::uint32_t lights : {0u, 1u}) check({47, 33}, lights, "8");
 }
 
 // Lanes that have nothing to walk, side by side with ones that have.
@@ -61,6 +95,37 @@ TEST_F(Clustered, loop_of_waves_passes_over_sky) {
         if (pixel % 7 < 3 || pixel / 40 >= 20) view.positions[pixel].depth = 0.0f;
     view.points.positions().upload(view.positions);
     expect_same_pixels(view, {{"cell_test", "tight"}});
+}
+
+// Each light of the lanes' lists is loaded once for all of them: what the modelled waves count. Waves of the software
+// driver are so many pixels of a block of 8 x 8 pixels, row by row. The shader itself says how many: its cache on the
+// disk may hold code for another width than the device has now.
+TEST_F(Clustered, loop_of_waves_loads_each_light_once) {
+    if (!device().info().is_software) GTEST_SKIP() << "which pixels share a wave is known of the software driver only";
+    const View view = made_view(device(), 97, 60, 700);
+    StructureOptions options;
+    options.kind = StructureKind::lists;
+    options.tile_size = 11; // so that tiles end inside of waves
+    options.cell_test = paper::CellTest::tight;
+    const std::unique_ptr<Producer> producer = make_paper_producer(options);
+    StructureBuffers buffers(device());
+    buffers.reserve(producer->plan(view.frame()));
+    producer->write(buffers.targets());
+    buffers.finish();
+    ShadingPass pass(device(), {"steps", kStepsCode, kStepsCode, kStepsCode, 5}, LightSplit::none);
+    const std::vector<PixelRecord> records =
+        pass.record(view.frame(), FrameLights(device(), view.frame()), one_band(view.frame(), buffers.bindings()));
+    const HostStructure structure(buffers);
+    std::map<std::size_t, WaveSteps> waves;
+    for (std::size_t pixel = 0; pixel < records.size(); ++pixel) {
+        if (view.positions[pixel].depth == 0.0f) continue;
+        const std::size_t x = pixel % view.width, y = pixel / view.width;
+        const std::size_t block = y / 8 * ((view.width + 7) / 8) + x / 8;
+        WaveSteps& wave = waves[(block * 64 + y % 8 * 8 + x % 8) / records[pixel].references];
+        add_list(view, structure, pixel, wave.lights);
+        wave.steps = std::max(wave.steps, records[pixel].nodes);
+    }
+    for (const auto& [number, wave] : waves) EXPECT_EQ(wave.steps, wave.lights.size()) << "wave " << number;
 }
 
 // A light's index replaced by a greater one: the list no longer ascends, and no other light of it is lost.

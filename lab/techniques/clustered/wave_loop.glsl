@@ -5,6 +5,9 @@
 // Every lane goes through its own list whatever the others do: should the lists not ascend, or a wave fall apart into
 // parts that walk on their own, lights are loaded more often, and none is lost. Of those that walk together, at least the
 // one that the step's light comes from goes on.
+//
+// With MANYLIGHTS_STEPS a record's nodes are the lights that the wave loads while the lane takes part, and its references
+// the lanes of a wave: for a test.
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
@@ -15,11 +18,17 @@ struct Walk {
     MlCursor cursor;
     uint next;
     bool has_next;
+#if defined(MANYLIGHTS_STEPS)
+    uint steps; // that the lane took part in
+#endif
 };
 
 // The wave's light, which is loaded by all lanes alike, and tested by those whose next it is.
 void take_step(inout Pixel pixel, inout Walk walk, uint light) {
     vec4 sphere = spheres.d[light];
+#if defined(MANYLIGHTS_STEPS)
+    walk.steps += 1u;
+#endif
     if (walk.next != light) return;
     if (ml_affects(pixel.surface.position, sphere.xyz, sphere.w)) shade_light(pixel, light, sphere);
     walk.has_next = ml_next(walk.cursor, walk.next);
@@ -29,6 +38,9 @@ void main() {
     Pixel pixel = begin_pixel(true);
     if (pixel.is_shaded) {
         Walk walk;
+#if defined(MANYLIGHTS_STEPS)
+        walk.steps = 0u;
+#endif
         walk.cursor = ml_begin(views.d[0], vec2(pixel.coordinates) + 0.5, pixel.depth);
         bool is_one_list = subgroupAllEqual(uvec2(walk.cursor.reference, walk.cursor.reference_end));
         walk.has_next = ml_next(walk.cursor, walk.next);
@@ -41,6 +53,10 @@ void main() {
         pixel.record.tested = walk.cursor.tested;
         pixel.record.nodes = walk.cursor.nodes;
         pixel.record.references = walk.cursor.references;
+#endif
+#if defined(MANYLIGHTS_STEPS)
+        pixel.record.nodes = walk.steps;
+        pixel.record.references = gl_SubgroupSize;
 #endif
     }
     end_pixel(pixel);
