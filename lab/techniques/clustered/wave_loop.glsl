@@ -42,7 +42,7 @@ void main() {
         walk.steps = 0u;
 #endif
         walk.cursor = ml_begin(views.d[0], vec2(pixel.coordinates) + 0.5, pixel.depth);
-        bool is_one_list = subgroupAllEqual(uvec2(walk.cursor.reference, walk.cursor.reference_end));
+        bool is_one_list = subgroupAllEqual(walk.cursor.reference); // two that begin alike are one, or empty
         walk.has_next = ml_next(walk.cursor, walk.next);
         if (is_one_list) {
             while (walk.has_next) take_step(pixel, walk, subgroupBroadcastFirst(walk.next));
