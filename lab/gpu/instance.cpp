@@ -89,7 +89,12 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical) {
         info.memory_bytes = std::max<std::uint64_t>(info.memory_bytes, memory.memoryHeaps[heap].size);
     std::copy_n(properties.limits.maxComputeWorkGroupCount.begin(), 3, info.max_workgroups);
     info.max_image_size = properties.limits.maxImageDimension2D;
-    info.subgroup_size = chain.get<vk::PhysicalDeviceVulkan11Properties>().subgroupSize;
+    const auto& subgroups = chain.get<vk::PhysicalDeviceVulkan11Properties>();
+    info.subgroup_size = subgroups.subgroupSize;
+    const vk::SubgroupFeatureFlags wanted = vk::SubgroupFeatureFlagBits::eVote | vk::SubgroupFeatureFlagBits::eBallot |
+                                            vk::SubgroupFeatureFlagBits::eArithmetic;
+    info.subgroup_operations = (subgroups.subgroupSupportedOperations & wanted) == wanted &&
+                               (subgroups.subgroupSupportedStages & vk::ShaderStageFlagBits::eCompute);
     return info;
 }
 

@@ -34,6 +34,7 @@ struct Plan {
     std::vector<std::uint32_t> main_lights; ///< of them, those with the path and with times
     std::vector<std::uint32_t> cameras, frames;
     Rounds rounds;
+    std::vector<std::uint32_t> rival_lights{}; ///< those of the lights with the rivals
 };
 
 std::vector<std::uint32_t> numbers_below(std::uint32_t end, std::uint32_t step) {
@@ -53,6 +54,8 @@ Plan plan_of(const SuiteOptions& options) {
                    numbers_below(kCameras, 1),
                    numbers_below(kPathFrames, 1),
                    {5, 3, 5, 5}};
+    plan.rival_lights = {65536};
+    if (!options.quick) plan.rival_lights.insert(plan.rival_lights.end(), {8192, 1048576});
     if (options.width != 0) plan.width = options.width, plan.height = options.height;
     if (!options.lights.empty()) plan.lights = plan.main_lights = options.lights;
     if (options.repeat != 0)
@@ -81,6 +84,19 @@ OptionValues options_of(const std::string& technique) {
     return options.size() > 1 ? options : OptionValues{};
 }
 
+// The best that lists can do: finer grids than the papers have, cells tested tightly, lists walked by whole waves.
+// Only where lights are many, and beside the settings above.
+const OptionValues kRivals[] = {
+    {{"tile_size", "32"}, {"slice_count", "64"}, {"cell_test", "tight"}, {"loop", "wave"}},
+    {{"tile_size", "16"}, {"slice_count", "128"}, {"cell_test", "tight"}, {"loop", "wave"}}};
+
+void add_rivals(std::vector<TechniqueChoice>& choices) {
+    auto place = std::find_if(choices.begin(), choices.end(),
+                              [](const TechniqueChoice& choice) { return choice.name == "clustered"; });
+    if (place == choices.end()) return;
+    for (const OptionValues& options : kRivals) place = choices.insert(place + 1, {"clustered", options});
+}
+
 // Brute force tests every light for every point: its figures are the number of lights, and it would take days.
 std::vector<TechniqueChoice> techniques_of(const SuiteOptions& options) {
     std::vector<TechniqueChoice> choices;
@@ -103,6 +119,7 @@ void add_cases(std::vector<Case>& cases, const Case& scene_case, const Plan& pla
         c.lights.count = lights;
         const bool is_main = contains(plan.main_lights, lights);
         if (is_main) c.rounds = plan.rounds;
+        if (contains(plan.rival_lights, lights)) add_rivals(c.techniques);
         for (const std::uint32_t camera : plan.cameras) {
             c.view = {false, camera};
             cases.push_back(c);

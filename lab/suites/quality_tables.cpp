@@ -4,15 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
+#include <set>
 
 namespace manylights::lab::suites {
 namespace {
 
-/// The rows of one technique in one scene with one number of lights, over several views.
+/// The rows of one technique with the same options in one scene with one number of lights, over several views.
 using Rows = std::vector<const Row*>;
 
-/// Rows of one scene and one number of lights, by technique in the order of their first rows.
+/// Rows of one scene and one number of lights, by label in the order of their first rows.
 struct Group {
     std::string title;
     std::vector<std::pair<std::string, Rows>> cameras, path;
@@ -20,16 +22,47 @@ struct Group {
 
 bool is_right(const Row& row) { return row.at("missing_points") == 0; }
 
-void add_row(std::vector<std::pair<std::string, Rows>>& techniques, const Row& row) {
-    const std::string name = row.at("technique");
+// The grid first, as in 32x64: tiles of 32 pixels, 64 slices. Then words by themselves, and numbers with their keys.
+std::string option_words(const Row& options) {
+    std::vector<std::string> words;
+    if (options.contains("tile_size")) words.push_back(options.at("tile_size"));
+    if (options.contains("tile_size") && options.contains("slice_count"))
+        words[0] += fmt::format("x{}", options.at("slice_count").get<std::string>());
+    for (const auto& [key, value] : options.items()) {
+        if (options.contains("tile_size") && (key == "tile_size" || key == "slice_count")) continue;
+        const std::string text = value.get<std::string>();
+        const bool is_word = std::isalpha(static_cast<unsigned char>(text.front())) != 0;
+        words.push_back(is_word ? text : fmt::format("{}={}", key, text));
+    }
+    return fmt::format("{}", fmt::join(words, " "));
+}
+
+/// What a row is called: its technique, with the options where rows of the technique differ in them.
+class Labels {
+  public:
+    explicit Labels(std::span<const Row> rows) {
+        for (const Row& row : rows) options_[row.at("technique")].insert(row.at("options").dump());
+    }
+    std::string of(const Row& row) const {
+        const std::string technique = row.at("technique");
+        return options_.at(technique).size() > 1 ? fmt::format("{} {}", technique, option_words(row.at("options")))
+                                                 : technique;
+    }
+
+  private:
+    std::map<std::string, std::set<std::string>> options_;
+};
+
+void add_row(std::vector<std::pair<std::string, Rows>>& techniques, const std::string& label, const Row& row) {
     auto found =
-        std::find_if(techniques.begin(), techniques.end(), [&](const auto& entry) { return entry.first == name; });
-    if (found == techniques.end()) found = techniques.insert(techniques.end(), {name, {}});
+        std::find_if(techniques.begin(), techniques.end(), [&](const auto& entry) { return entry.first == label; });
+    if (found == techniques.end()) found = techniques.insert(techniques.end(), {label, {}});
     found->second.push_back(&row);
 }
 
 std::vector<Group> groups_of(std::span<const Row> rows) {
     std::vector<Group> groups;
+    const Labels labels(rows);
     for (const Row& row : rows) {
         const std::string title = fmt::format(
             "{}, {} lights ({}), {}x{}", row.at("scene").get<std::string>(), row.at("lights").get<std::uint64_t>(),
@@ -37,7 +70,7 @@ std::vector<Group> groups_of(std::span<const Row> rows) {
         auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.title == title; });
         if (group == groups.end()) group = groups.insert(groups.end(), {title, {}, {}});
         const bool on_path = row.at("camera").get<std::string>().starts_with("path:");
-        add_row(on_path ? group->path : group->cameras, row);
+        add_row(on_path ? group->path : group->cameras, labels.of(row), row);
     }
     return groups;
 }
@@ -89,8 +122,8 @@ std::vector<double> costs(const Rows& rows) {
 }
 
 std::vector<double> costs_of(const Group& group, const std::string& technique) {
-    for (const auto& [name, rows] : group.path)
-        if (name == technique && all_right(rows)) return costs(rows);
+    for (const auto& [label, rows] : group.path)
+        if (rows.front()->at("technique") == technique && all_right(rows)) return costs(rows);
     return {};
 }
 

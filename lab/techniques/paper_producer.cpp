@@ -37,6 +37,7 @@ paper::Options paper_options(const StructureOptions& options, const SliceRange& 
     result.slice_formula = options.slice_formula;
     result.heuristic = options.heuristic;
     result.sort_key = options.sort_key;
+    result.cell_test = options.cell_test;
     result.time_stages = true;
     return result;
 }

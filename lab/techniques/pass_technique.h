@@ -1,6 +1,6 @@
 #pragma once
-// A technique that builds its structure on the device and shades with the common pass: one shader in three forms, behind
-// whose common buffers the technique's own are bound. What such a technique writes is `build`, `structure`, the
+// A technique that builds its structure on the device and shades with the common pass: one shader in three forms,
+// behind whose common buffers the technique's own are bound. What such a technique writes is `build`, `structure`, the
 // shader's walk and its options.
 
 #include "lab/techniques/shading_pass.h"

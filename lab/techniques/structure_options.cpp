@@ -13,6 +13,8 @@ namespace {
 constexpr const char* kProducers[] = {"library", "paper"};
 constexpr const char* kListing4[] = {"corrected", "printed"};
 constexpr const char* kSortKeys[] = {"centre", "near"};
+constexpr const char* kCellTests[] = {"box", "tight"};
+constexpr const char* kLoops[] = {"lane", "wave"};
 // In the order of paper::Heuristic: "e" always makes trees, "lists" never does.
 constexpr const char* kHeuristics[] = {"a", "b", "c", "d", "e", "lists"};
 
@@ -23,6 +25,16 @@ bool has_trees(StructureKind kind) { return kind == StructureKind::trees || kind
 void refuse_papers_switches(const TechniqueInfo& info, const OptionReader& reader) {
     for (const char* key : {"heuristic", "listing4", "sort_key"})
         if (reader.given(key)) throw InputError(fmt::format("{}: option {} needs producer=paper", info.name, key));
+}
+
+// Tight cells are the paper's pipeline's alone, and only its lists ascend by light: so these values choose it.
+void choose_producer(const TechniqueInfo& info, const OptionReader& reader, StructureOptions& options) {
+    const bool is_tight = options.cell_test == paper::CellTest::tight;
+    if (!is_tight && options.loop == ListLoop::lane) return;
+    if (reader.given("producer") && options.producer == ProducerKind::library)
+        throw InputError(
+            fmt::format("{}: option {} needs producer=paper", info.name, is_tight ? "cell_test=tight" : "loop=wave"));
+    options.producer = ProducerKind::paper;
 }
 
 } // namespace
@@ -42,6 +54,12 @@ std::vector<OptionInfo> structure_option_infos(StructureKind kind) {
     if (kind == StructureKind::hybrid)
         infos.push_back({"heuristic", "list or tree, with producer=paper",
                          "a (default), b, c, d, e (always a tree), lists (never one)"});
+    if (kind == StructureKind::lists) {
+        infos.push_back({"cell_test", "cells of its tiles and slices that a light goes to",
+                         "box (default): all, or tight: those it meets, with producer=paper"});
+        infos.push_back({"loop", "who walks the lists",
+                         "lane (default): each its own, or wave: all their union, with producer=paper"});
+    }
     if (has_slices(kind))
         infos.push_back({"listing4", "slice formula, with producer=paper", "corrected (default) or printed"});
     if (has_trees(kind))
@@ -61,6 +79,9 @@ StructureOptions read_structure_options(const TechniqueInfo& info, StructureKind
     options.slice_near = reader.positive_number("slice_near");
     options.slice_far = reader.positive_number("slice_far");
     options.producer = static_cast<ProducerKind>(reader.choice("producer", kProducers));
+    options.cell_test = static_cast<paper::CellTest>(reader.choice("cell_test", kCellTests));
+    options.loop = static_cast<ListLoop>(reader.choice("loop", kLoops));
+    choose_producer(info, reader, options);
     if (options.producer == ProducerKind::library) refuse_papers_switches(info, reader);
     options.heuristic = static_cast<paper::Heuristic>(reader.choice("heuristic", kHeuristics));
     options.slice_formula = static_cast<paper::SliceFormula>(reader.choice("listing4", kListing4));

@@ -8,6 +8,8 @@ namespace manylights::lab {
 
 enum class StructureKind { lists, trees, hybrid, windows };
 enum class ProducerKind { library, paper };
+/// Who walks lists: each lane its own, or the lanes of a wave the union of theirs.
+enum class ListLoop { lane, wave };
 
 struct StructureOptions {
     StructureKind kind = StructureKind::hybrid;
@@ -19,6 +21,8 @@ struct StructureOptions {
     paper::Heuristic heuristic = paper::Heuristic::clipped_half_extent; ///< these three: only with the paper's producer
     paper::SliceFormula slice_formula = paper::SliceFormula::corrected;
     paper::SortKey sort_key = paper::SortKey::center_depth;
+    paper::CellTest cell_test = paper::CellTest::box; ///< these two: of lists only, and tight and wave the same
+    ListLoop loop = ListLoop::lane;
 };
 
 std::vector<OptionInfo> structure_option_infos(StructureKind kind);

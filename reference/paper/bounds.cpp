@@ -6,9 +6,6 @@
 namespace manylights::paper {
 namespace {
 
-// The promise allows the query's depth 2^-20 relative; a quarter more covers the rounding of the range's ends.
-constexpr float kDepthSlack = 1.25f * 0x1p-20f;
-
 // side / depth at the borders of a rectangle: left, top, right, bottom. Arrays of four, which compilers turn into
 // vectors.
 struct Slopes {

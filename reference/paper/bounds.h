@@ -7,6 +7,9 @@
 
 namespace manylights::paper {
 
+/// The promise allows the query's depth 2^-20 relative; a quarter more covers the rounding of the range's ends.
+constexpr float kDepthSlack = 1.25f * 0x1p-20f;
+
 struct Grid {
     std::uint32_t tile_px, tiles_x, tiles_y;
     float widening_px; ///< tiles are widened by this much, beyond guard_px

@@ -18,6 +18,12 @@ enum class SliceFormula : std::uint32_t {
                         ///< that depths from slice_near on share one slice; exact all the same, only slow
 };
 
+/// Which cells of its box a light goes to. Not of the papers: it makes of their grid a rival as good as it can be.
+enum class CellTest : std::uint32_t {
+    box,  ///< all of them (TLT section 4.1)
+    tight ///< those that its sphere meets: tight.h
+};
+
 /// When a cell of the hybrid gets a tree (TLT section 3.3, listing 2, whose `cell.radius` is not defined).
 enum class Heuristic : std::uint32_t {
     clipped_half_extent, ///< mean depth overlap of light and cell < half of the cell's depth extent
@@ -45,6 +51,7 @@ struct Options {
     Heuristic heuristic = Heuristic::clipped_half_extent;
     SortKey sort_key = SortKey::center_depth;
     ListBounds list_bounds = ListBounds::infinite;
+    CellTest cell_test = CellTest::box;
     bool time_stages = false; ///< fill Buffers::times
 };
 

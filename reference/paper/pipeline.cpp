@@ -19,6 +19,10 @@ void check(const Options& options, std::span<const ManylightsView> views) {
             throw std::invalid_argument("view.width and view.height must be in [1, 65536]");
 }
 
+void check_reference_count(std::uint64_t count) {
+    if (count > kMost) throw std::length_error("more than 2^32 - 1 references");
+}
+
 void prefetch([[maybe_unused]] const void* address) {
 #if defined(__GNUC__)
     __builtin_prefetch(address);
@@ -84,11 +88,12 @@ void PaperPipeline::build_view(const ManylightsView& view, const ManylightsLight
     if (has_trees) sort_lights(counts.kept, options); // lists need no order
     clock.lap(buffers_.times.sort);
 
-    bound_lights(camera, grid, counts.kept, has_trees);
+    bound_lights(camera, grid, counts.kept, options);
     clock.lap(buffers_.times.bounds);
 
     MlCell* cells = cells_.data() + views_.back().cell_offset;
-    bin_lights(grid, cells, cell_count, !has_trees);
+    options.cell_test == CellTest::tight ? scatter_tight(camera, grid) : scatter_boxes(grid);
+    bin_lights(cells, cell_count, !has_trees);
     clock.lap(buffers_.times.bin);
 
     if (has_trees) build_trees(camera, options, cells, clock);
@@ -126,12 +131,14 @@ void PaperPipeline::sort_lights(std::uint32_t count, const Options& options) {
     order_ = sort_.sort(count);
 }
 
-void PaperPipeline::bound_lights(const Camera& camera, const Grid& grid, std::uint32_t count, bool sorted) {
+void PaperPipeline::bound_lights(const Camera& camera, const Grid& grid, std::uint32_t count, const Options& options) {
     constexpr std::uint32_t kAhead = 16; // sorted lights lie anywhere: fetch them in time
+    const bool sorted = options.structure != Structure::clustered, tight = options.cell_test == CellTest::tight;
     const CulledLight* culled = culled_.data();
     // One beyond: an empty box is written, too.
     CellBox* boxes = boxes_.require(count + std::size_t{1});
     CellLight* cell_lights = cell_lights_.require(count + std::size_t{1});
+    CulledLight* bounded = tight ? bounded_.require(count + std::size_t{1}) : nullptr;
     std::uint32_t kept = 0;
     std::uint64_t cells = 0;
     float farthest = 0.0f;
@@ -139,6 +146,7 @@ void PaperPipeline::bound_lights(const Camera& camera, const Grid& grid, std::ui
         if (sorted) prefetch(culled + order_[std::min(i + kAhead, count - 1)].rank);
         const CulledLight& light = culled[sorted ? order_[i].rank : i];
         const bool touches = bound(camera, grid, slices_, light, boxes[kept], cell_lights[kept]);
+        if (tight) bounded[kept] = light;
         cells += touches ? boxes[kept].cell_count() : 0;
         farthest = std::max(farthest, cell_lights[kept].max_depth);
         kept += touches;
@@ -148,12 +156,28 @@ void PaperPipeline::bound_lights(const Camera& camera, const Grid& grid, std::ui
     farthest_ = farthest;
 }
 
-void PaperPipeline::bin_lights(const Grid& grid, MlCell* cells, std::uint32_t cell_count, bool as_indices) {
+void PaperPipeline::scatter_boxes(const Grid& grid) {
+    check_reference_count(reference_count_ + scatter_count_);
+    write_scatter(boxes_.data(), bounded_count_, grid, scatter_.require(scatter_count_ + kScatterPadding));
+}
+
+// Room for whole boxes, one light after the other: together they would be several times what passes.
+void PaperPipeline::scatter_tight(const Camera& camera, const Grid& grid) {
+    tight_.set_view(camera, grid);
+    std::uint64_t count = 0;
+    for (std::uint32_t i = 0; i < bounded_count_; ++i) {
+        const CellBox& box = boxes_.data()[i];
+        Scatter* scatter = scatter_.require(count + box.cell_count(), count) + count;
+        count += tight_.write_scatter(bounded_.data()[i], box, slices_, i, scatter);
+        check_reference_count(reference_count_ + count);
+    }
+    scatter_count_ = count;
+}
+
+void PaperPipeline::bin_lights(MlCell* cells, std::uint32_t cell_count, bool as_indices) {
     const std::uint64_t first = reference_count_, end = first + scatter_count_;
-    if (end > kMost) throw std::length_error("more than 2^32 - 1 references");
-    Scatter* scatter = scatter_.require(scatter_count_ + kScatterPadding);
+    const Scatter* scatter = scatter_.data();
     std::uint32_t* cursors = cursors_.require(cell_count);
-    write_scatter(boxes_.data(), bounded_count_, grid, scatter);
     place_cells(scatter, scatter_count_, std::uint32_t(first), cells, cursors, cell_count);
     std::uint32_t* references = references_.require(end, first);
     reference_count_ = end;

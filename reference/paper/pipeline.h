@@ -7,10 +7,10 @@
 // The result is the same format that the library writes (manylights/format.h), read by the same query, and as exact:
 // the promise of manylights.h holds. All memory is kept between frames.
 
-#include "reference/paper/bin.h"
 #include "reference/paper/options.h"
 #include "reference/paper/radix_sort.h"
 #include "reference/paper/slices.h"
+#include "reference/paper/tight.h"
 #include "reference/paper/tree.h"
 
 #include <manylights/format.h>
@@ -54,8 +54,10 @@ class PaperPipeline {
                     StageClock& clock);
     void place_view(const Camera& camera, const Grid& grid, const Options& options);
     void sort_lights(std::uint32_t count, const Options& options);
-    void bound_lights(const Camera& camera, const Grid& grid, std::uint32_t count, bool sorted);
-    void bin_lights(const Grid& grid, MlCell* cells, std::uint32_t cell_count, bool as_indices);
+    void bound_lights(const Camera& camera, const Grid& grid, std::uint32_t count, const Options& options);
+    void scatter_tight(const Camera& camera, const Grid& grid);
+    void scatter_boxes(const Grid& grid);
+    void bin_lights(MlCell* cells, std::uint32_t cell_count, bool as_indices);
     CellLights take_cell(const MlCell& cell);
     void build_trees(const Camera& camera, const Options& options, MlCell* cells, StageClock& clock);
     SliceExtent slice_extent(const Camera& camera, const Options& options, std::uint32_t slice) const;
@@ -68,8 +70,10 @@ class PaperPipeline {
     FlatArray<CellLight> cell_lights_;
     std::uint32_t bounded_count_ = 0;
     float farthest_ = 0.0f;           ///< end of the farthest light's depth range
-    std::uint64_t scatter_count_ = 0; ///< cells of all boxes
+    std::uint64_t scatter_count_ = 0; ///< cells of all boxes; the tight test leaves fewer
     FlatArray<Scatter> scatter_;
+    FlatArray<CulledLight> bounded_; ///< of the boxes, for the tight test
+    TightTest tight_;
     FlatArray<std::uint32_t> cursors_;
     FlatArray<DepthRange> ranges_; ///< of one cell's lights
     TreeBuilder tree_builder_;

@@ -40,6 +40,7 @@ class Usage(CommandTest):
     def test_technique_options(self):
         self.refuse(["--set", "tile_sise=48"], r"tile_sise.*unknown option.*tile_size")
         self.refuse(["--set", "tile_size"], r"--set 'tile_size': must be KEY=VALUE")
+        self.refuse(["--technique", "tiled_light_trees", "--set", "loop=wave"], r"loop=wave.*unknown option.*tile_size")
 
 
 class Values(CommandTest):
@@ -50,6 +51,14 @@ class Values(CommandTest):
     def test_tile_size_zero_or_absurd(self):
         for value in ("0", "-1", "1000000", "48.5", ""):
             self.refuse(["--set", f"tile_size={value}"], rf"tile_size={value}: must be a whole number from \d+ to \d+")
+
+    def test_cells_and_loop_of_lists(self):
+        for value in ("tightly", "Box", ""):
+            self.refuse(["--technique", "clustered", "--set", f"cell_test={value}"], rf"cell_test={value}: must be one of box, tight")
+            self.refuse(["--technique", "clustered", "--set", f"loop={value}"], rf"loop={value}: must be one of lane, wave")
+        for setting in ("cell_test=tight", "loop=wave"):
+            self.refuse(["--technique", "clustered", "--set", "producer=library", "--set", setting],
+                        rf"clustered: option {setting} needs producer=paper")
 
     def test_camera(self):
         self.refuse(["--camera", "nowhere"], r"camera.*nowhere")

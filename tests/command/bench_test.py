@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import re
 import signal
 import subprocess
 import time
@@ -102,6 +103,23 @@ class Bench(BenchTest):
             with open(self.path("a.json")) as file:
                 row = {**without_times(json.load(file)), "missing_points": 0}
             self.assertIn(row, self.counted())
+
+    def test_lists_with_other_options_have_lines_of_their_own(self):
+        self.assert_done(*SMALL_BENCH, "--views", "cameras", "--lights", "8192", "--techniques", "exact,clustered", "--repeat", "1")
+        rows = self.rows()
+        self.assertEqual(len(rows), 4 * 4)
+        self.assertEqual([row["options"].get("tile_size") for row in rows[:4]], [None, "48", "32", "16"])
+        self.assertEqual({row["missing_points"] for row in rows}, {0})
+        tested = [row["tested_mean"] for row in rows[:4]]
+        self.assertEqual(tested, sorted(tested[:1]) + sorted(tested[1:], reverse=True))
+        with open(self.path("out/quality.md")) as file:
+            text = file.read()
+        for label in ("exact", "clustered 48x16", "clustered 32x64 tight wave", "clustered 16x128 tight wave"):
+            self.assertEqual(len(re.findall(rf"(?m)^\| {label} +\|", text)), 2, label)
+        before = self.rows()
+        self.assert_done(*SMALL_BENCH, "--views", "cameras", "--lights", "8192", "--techniques", "exact,clustered", "--repeat", "1",
+                         "--resume")
+        self.assertEqual(self.rows(), before)
 
     def test_a_scene_that_is_not_there_is_skipped_with_the_reason(self):
         done = self.assert_done("bench", "quality", "--scenes", "sponza", "--scene-folder", "nowhere", "--out", "out")

@@ -86,6 +86,12 @@ class Verify(CommandTest):
         self.assertRegex(done.stdout, r"(?m)^clustered +tile_size=16  ")
         self.assertRegex(done.stdout, r"(?m)^hybrid_light_trees +tile_size=16 leaf_size=2  ")
 
+    def test_lists_at_their_best_are_exact(self):
+        for settings in (["cell_test=tight"], ["loop=wave"], ["cell_test=tight", "loop=wave", "tile_size=16", "slice_count=128"]):
+            given = [word for setting in settings for word in ("--set", setting)]
+            done = self.assert_done("verify", *SMALL, "--techniques", "clustered,depth_windows", *given)
+            self.assertRegex(done.stdout, rf"(?m)^clustered +{' '.join(settings)}  .* 0  exact$")
+
     def test_a_removed_light_is_found_and_named(self):
         for name in ("exact", *CELLS):
             done = self.assert_done("verify", *SMALL, "--remove-one-light", name, code=1)

@@ -6,6 +6,8 @@
 #include "tests/parity/techniques_fixture.h"
 #include "tests/unit/points/pinned_view.h"
 
+#include <algorithm>
+#include <sstream>
 #include <stdexcept>
 
 namespace manylights::lab {
@@ -29,7 +31,7 @@ struct PinnedWork {
     const char* scene;
     const char* technique;
     Work work;
-    bool has_depth = false; ///< the option depth of depth_windows
+    const char* set = ""; ///< options besides the tiles' size, as --set takes them, with spaces between them
 };
 
 /// Tiles of 8 pixels, so that the small images have 4x3 of them; everything else as it is by default.
@@ -37,31 +39,47 @@ constexpr PinnedWork kPinnedWork[] = {
     {"canyon", "brute_force", {1990656, 0, 0, 4096, 0, 0, 49152, 510, 0, 0}},
     {"canyon", "exact", {3873, 0, 3873, 223, 3873, 19708, 510, 510, 0, 0}},
     {"canyon", "clustered", {37188, 486, 37188, 4096, 10849, 45064, 2996, 510, 52, 0}},
+    {"canyon",
+     "clustered",
+     {20143, 486, 20143, 4096, 19330, 83788, 2182, 510, 91, 0},
+     "slice_count=64 cell_test=tight loop=wave"},
     {"canyon", "tiled_light_trees", {26807, 24082, 26807, 4096, 6561, 99948, 2271, 510, 1600, 0}},
     {"canyon", "hybrid_light_trees", {28346, 5844, 28346, 4096, 10849, 116808, 2268, 510, 960, 0}},
     {"canyon", "depth_windows", {8284, 970, 23505, 4096, 6490, 71728, 839, 510, 104, 2060}},
-    {"canyon", "depth_windows", {8284, 970, 15720, 4096, 864, 9680, 839, 510, 93, 861}, true},
+    {"canyon", "depth_windows", {8284, 970, 15720, 4096, 864, 9680, 839, 510, 93, 861}, "depth=on"},
     {"citadel", "brute_force", {1110016, 0, 0, 4096, 0, 0, 40960, 336, 0, 0}},
     {"citadel", "exact", {2221, 0, 2221, 191, 2221, 13100, 336, 336, 0, 0}},
     {"citadel", "clustered", {12570, 271, 12570, 3195, 12654, 52284, 1835, 336, 33, 0}},
+    {"citadel",
+     "clustered",
+     {6066, 271, 6066, 3217, 22160, 95108, 1009, 336, 80, 0},
+     "slice_count=64 cell_test=tight loop=wave"},
     {"citadel", "tiled_light_trees", {9947, 10138, 9947, 3195, 7688, 130056, 1128, 336, 884, 0}},
     {"citadel", "hybrid_light_trees", {10353, 1574, 10353, 3195, 12654, 167484, 1119, 336, 574, 0}},
     {"citadel", "depth_windows", {4168, 542, 8170, 3195, 7545, 65056, 558, 336, 44, 1058}},
-    {"citadel", "depth_windows", {4168, 542, 6977, 3195, 567, 5504, 558, 336, 40, 567}, true},
+    {"citadel", "depth_windows", {4168, 542, 6977, 3195, 567, 5504, 558, 336, 40, 567}, "depth=on"},
     {"bars", "brute_force", {2093056, 0, 0, 4096, 0, 0, 49152, 701, 0, 0}},
     {"bars", "exact", {3966, 0, 3966, 391, 3966, 20080, 701, 701, 0, 0}},
     {"bars", "clustered", {37737, 511, 37737, 3250, 12893, 53240, 4346, 701, 74, 0}},
+    {"bars",
+     "clustered",
+     {18000, 511, 18000, 3280, 23832, 101796, 2887, 701, 109, 0},
+     "slice_count=64 cell_test=tight loop=wave"},
     {"bars", "tiled_light_trees", {29393, 25000, 29393, 3250, 6331, 101076, 3150, 701, 2106, 0}},
     {"bars", "hybrid_light_trees", {30999, 5838, 30999, 3250, 12893, 145512, 3138, 701, 1686, 0}},
     {"bars", "depth_windows", {8368, 1022, 22203, 3250, 6153, 53144, 1216, 701, 89, 2914}},
-    {"bars", "depth_windows", {8368, 1022, 15190, 3250, 1244, 12200, 1216, 701, 88, 1244}, true},
+    {"bars", "depth_windows", {8368, 1022, 15190, 3250, 1244, 12200, 1216, 701, 88, 1244}, "depth=on"},
     {"cornell", "brute_force", {1183744, 0, 0, 4096, 0, 0, 36864, 1333, 0, 0}},
     {"cornell", "exact", {1749, 0, 1749, 1284, 1749, 11212, 1333, 1333, 0, 0}},
     {"cornell", "clustered", {87725, 289, 87725, 4096, 7941, 33432, 5055, 1333, 24, 0}},
+    {"cornell",
+     "clustered",
+     {44283, 289, 44283, 4096, 15851, 69872, 3548, 1333, 32, 0},
+     "slice_count=64 cell_test=tight loop=wave"},
     {"cornell", "tiled_light_trees", {43382, 31264, 43382, 4096, 5351, 86916, 3543, 1333, 2306, 0}},
     {"cornell", "hybrid_light_trees", {42853, 30168, 42853, 4096, 7941, 121640, 3532, 1333, 2714, 0}},
     {"cornell", "depth_windows", {5666, 578, 50523, 4096, 5326, 44880, 2176, 1333, 40, 3855}},
-    {"cornell", "depth_windows", {5666, 562, 34462, 4096, 2366, 20232, 2176, 1333, 38, 2366}, true},
+    {"cornell", "depth_windows", {5666, 562, 34462, 4096, 2366, 20232, 2176, 1333, 38, 2366}, "depth=on"},
 };
 
 class PinnedWorkTest : public TechniquesTest, public testing::WithParamInterface<PinnedWork> {};
@@ -95,7 +113,11 @@ OptionValues options_of(const PinnedWork& pinned) {
     const std::string name = pinned.technique;
     if (name == "brute_force" || name == "exact") return {};
     OptionValues options{{"tile_size", "8"}};
-    if (pinned.has_depth) options.emplace_back("depth", "on");
+    std::istringstream words(pinned.set);
+    for (std::string word; words >> word;) {
+        const std::size_t sign = word.find('=');
+        options.emplace_back(word.substr(0, sign), word.substr(sign + 1));
+    }
     return options;
 }
 
@@ -112,8 +134,10 @@ TEST_P(PinnedWorkTest, is_what_is_pinned) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Views, PinnedWorkTest, testing::ValuesIn(kPinnedWork), [](const auto& pinned) {
-    const std::string name = std::string(pinned.param.scene) + "_" + pinned.param.technique;
-    return pinned.param.has_depth ? name + "_depth" : name;
+    std::string name = std::string(pinned.param.scene) + "_" + pinned.param.technique + "_" + pinned.param.set;
+    std::ranges::replace_if(
+        name, [](char c) { return c == '=' || c == ' '; }, '_');
+    return name;
 });
 
 class SavedPointsTest : public TechniquesTest {};

@@ -98,6 +98,11 @@ std::vector<Variant> structure_variants() {
             {"depth_windows", "depth_windows", {}},
             {"depth_windows_depth", "depth_windows", {{"depth", "on"}}},
             {"clustered_paper", "clustered", {{"producer", "paper"}}},
+            {"clustered_tight", "clustered", {{"cell_test", "tight"}, {"tile_size", "16"}, {"slice_count", "128"}}},
+            {"clustered_wave", "clustered", {{"loop", "wave"}}},
+            {"clustered_tight_wave",
+             "clustered",
+             {{"cell_test", "tight"}, {"loop", "wave"}, {"tile_size", "8"}, {"slice_count", "64"}}},
             {"tiled_light_trees_paper", "tiled_light_trees", {{"producer", "paper"}}},
             {"hybrid_light_trees_paper", "hybrid_light_trees", {{"producer", "paper"}}}};
 }

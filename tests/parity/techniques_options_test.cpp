@@ -36,6 +36,9 @@ TEST_F(TechniquesTest, unknown_technique_names_the_choices) {
 TEST_F(TechniquesTest, unknown_option_names_the_keys) {
     expect_words(refusal(device(), "clustered", {{"leaf_size", "4"}}),
                  {"clustered", "leaf_size", "tile_size", "producer"});
+    for (const char* name : {"tiled_light_trees", "hybrid_light_trees", "depth_windows"})
+        for (const char* key : {"cell_test", "loop"})
+            expect_words(refusal(device(), name, {{key, "tight"}}), {name, key});
     expect_words(refusal(device(), "tiled_light_trees", {{"slice_count", "4"}}), {"slice_count", "leaf_size"});
     for (const char* key : {"slice_count", "leaf_size", "producer"})
         expect_words(refusal(device(), "depth_windows", {{key, "4"}}), {"depth_windows", key, "tile_size", "depth"});
@@ -56,6 +59,8 @@ TEST_F(TechniquesTest, values_out_of_range_name_the_range) {
     expect_words(refusal(device(), "clustered", {{"producer", "magic"}}), {"producer", "magic", "library", "paper"});
     for (const char* value : {"1", "yes", ""})
         expect_words(refusal(device(), "depth_windows", {{"depth", value}}), {"depth_windows", "depth=", "off, on"});
+    expect_words(refusal(device(), "clustered", {{"cell_test", "Tight"}}), {"cell_test", "Tight", "box, tight"});
+    expect_words(refusal(device(), "clustered", {{"loop", "1"}}), {"loop", "1", "lane, wave"});
     const OptionValues heuristic{{"producer", "paper"}, {"heuristic", "f"}};
     expect_words(refusal(device(), "hybrid_light_trees", heuristic), {"heuristic", "f", "a, b, c, d, e, lists"});
 }
@@ -65,6 +70,26 @@ TEST_F(TechniquesTest, options_that_contradict_each_other_are_refused) {
                  {"slice_near", "slice_far"});
     expect_words(refusal(device(), "clustered", {{"tile_size", "16"}, {"tile_size", "32"}}), {"tile_size", "twice"});
     expect_words(refusal(device(), "hybrid_light_trees", {{"heuristic", "a"}}), {"heuristic", "producer=paper"});
+    expect_words(refusal(device(), "clustered", {{"producer", "library"}, {"cell_test", "tight"}}),
+                 {"clustered", "cell_test=tight", "producer=paper"});
+    expect_words(refusal(device(), "clustered", {{"loop", "wave"}, {"producer", "library"}}),
+                 {"clustered", "loop=wave", "producer=paper"});
+}
+
+// What only the paper's pipeline can do chooses it, and its other switches with it.
+TEST_F(TechniquesTest, tight_cells_and_the_loop_of_waves_choose_the_producer) {
+    for (const OptionValues& options :
+         {OptionValues{{"cell_test", "tight"}}, OptionValues{{"loop", "wave"}, {"listing4", "printed"}},
+          OptionValues{{"cell_test", "tight"}, {"producer", "paper"}},
+          OptionValues{{"cell_test", "box"}, {"loop", "lane"}, {"producer", "library"}}})
+        EXPECT_EQ(refusal(device(), "clustered", options), "");
+    const auto producer_with = [](const OptionValues& options) {
+        return read_structure_options(technique_infos()[2], StructureKind::lists, options).producer;
+    };
+    EXPECT_EQ(producer_with({}), ProducerKind::library);
+    EXPECT_EQ(producer_with({{"cell_test", "box"}, {"loop", "lane"}}), ProducerKind::library);
+    EXPECT_EQ(producer_with({{"cell_test", "tight"}}), ProducerKind::paper);
+    EXPECT_EQ(producer_with({{"loop", "wave"}}), ProducerKind::paper);
 }
 
 TEST(Techniques, infos_name_every_technique_and_their_options) {

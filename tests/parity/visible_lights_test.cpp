@@ -49,13 +49,14 @@ TEST_F(VisibleLightsTest, leave_out_what_is_behind_beside_or_affects_nothing_and
     View view = made_view(device(), 97, 60, 1);
     const CameraBasis basis = camera_basis(view.camera, view.width, view.height);
     const auto light_at = [&](glm::vec3 offset, float range) {
-        const glm::vec3 p = view.camera.position + offset.x * basis.right + offset.y * basis.up + offset.z * basis.forward;
+        const glm::vec3 p =
+            view.camera.position + offset.x * basis.right + offset.y * basis.up + offset.z * basis.forward;
         return Light{{{p.x, p.y, p.z}, range}, {1, 1, 1}};
     };
     const float infinity = std::numeric_limits<float>::infinity();
-    view.lights = {light_at({0, 0, -10}, 5), light_at({100, 0, 10}, 5),      light_at({0, -100, 10}, 5),
-                   light_at({0, 0, 10}, 0),  light_at({0, 0, 10}, -1),       light_at({infinity, 0, 10}, 5),
-                   light_at({0, 0, 10}, 5),  light_at({0, 0, -10}, 1e18f),   light_at({0, 0, 0}, 0.2f),
+    view.lights = {light_at({0, 0, -10}, 5),  light_at({100, 0, 10}, 5),    light_at({0, -100, 10}, 5),
+                   light_at({0, 0, 10}, 0),   light_at({0, 0, 10}, -1),     light_at({infinity, 0, 10}, 5),
+                   light_at({0, 0, 10}, 5),   light_at({0, 0, -10}, 1e18f), light_at({0, 0, 0}, 0.2f),
                    light_at({0, 0, 1e12f}, 1)};
     std::vector<std::uint32_t> indices;
     for (const VisibleLight& light : find(view.frame())) indices.push_back(light.index);

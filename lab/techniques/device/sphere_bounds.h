@@ -82,12 +82,13 @@ ML_FN DepthSpan meet(DepthSpan a, DepthSpan b) {
 }
 
 // The depths of the sphere inside the half-space of slopes above (side 1) or below (side -1) the given one, whose plane
-// goes through the camera and has the unit normal n inwards. With h the distance of the sphere's centre from it: nothing
-// where h <= -r; a pole (the centre moved by r along the depth) where it is inside; else an extreme of the disc that the
-// plane cuts, whose centre is c - h n and whose radius is sqrt(r^2 - h^2), along which depth changes by |n_offset| per unit.
+// goes through the camera and has the unit normal n inwards. With h the distance of the sphere's centre from it:
+// nothing where h <= -r; a pole (the centre moved by r along the depth) where it is inside; else an extreme of the disc
+// that the plane cuts, whose centre is c - h n and whose radius is sqrt(r^2 - h^2), along which depth changes by
+// |n_offset| per unit.
 //
-// Slack: slope, normal and distance are off by less than 2^-21 (|c| + r) together; h is moved inwards by four times that,
-// the result outwards likewise.
+// Slack: slope, normal and distance are off by less than 2^-21 (|c| + r) together; h is moved inwards by four times
+// that, the result outwards likewise.
 ML_FN DepthSpan half_space_depths(float slope, float side, float offset, float depth, float radius) {
     float slack = 2e-6f * (abs(offset) + abs(depth) + radius);
     float n_offset = side / sqrt(1.0f + slope * slope);

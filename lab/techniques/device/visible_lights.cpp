@@ -45,8 +45,7 @@ double VisibleLights::find(const DeviceView& view, const gpu::Buffer& spheres, s
     commands.fill(marks_.buffer(), 0);
     commands.barrier();
     if (light_count != 0) commands.dispatch(mark_pipeline_, {{spheres}, {marks_.buffer()}}, push, groups);
-    prefix_sum_.record(commands, marks_.buffer(), places_.buffer(), static_cast<std::uint32_t>(words),
-                       total_.buffer());
+    prefix_sum_.record(commands, marks_.buffer(), places_.buffer(), static_cast<std::uint32_t>(words), total_.buffer());
     if (light_count != 0)
         commands.dispatch(write_pipeline_, {{spheres}, {places_.buffer()}, {lights_.buffer()}}, push, groups);
     const std::uint32_t end = commands.timestamp();

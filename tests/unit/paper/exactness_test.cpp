@@ -23,11 +23,16 @@ std::vector<OptionsCase> options_cases() {
         {"clustered, listing 4 as printed",
          {.structure = Structure::clustered, .slice_formula = SliceFormula::listing4_as_printed}},
         {"clustered, 128 slices", {.structure = Structure::clustered, .tile_px = 8, .slice_count = 128}},
+        {"clustered, tight", {.structure = Structure::clustered, .tile_px = 32, .cell_test = CellTest::tight}},
+        {"clustered, 128 slices, tight",
+         {.structure = Structure::clustered, .tile_px = 8, .slice_count = 128, .cell_test = CellTest::tight}},
         {"tree", {.structure = Structure::tree}},
+        {"tree, tight", {.structure = Structure::tree, .tile_px = 16, .cell_test = CellTest::tight}},
         {"tree, leaf 1", {.structure = Structure::tree, .leaf_size = 1}},
         {"tree, leaf 16, near key", {.structure = Structure::tree, .leaf_size = 16, .sort_key = SortKey::near_depth}},
         {"hybrid", {}},
         {"hybrid, listing 4 as printed", {.slice_formula = SliceFormula::listing4_as_printed}},
+        {"hybrid, tight", {.tile_px = 16, .slice_count = 64, .cell_test = CellTest::tight}},
         {"hybrid, diameter", {.heuristic = Heuristic::diameter_extent}},
         {"hybrid, whole extent", {.heuristic = Heuristic::clipped_extent}},
         {"hybrid, expected cost", {.heuristic = Heuristic::expected_cost}},
@@ -108,8 +113,10 @@ TEST(Exactness, AroundTheNearPlane) {
         }
         const ManylightsView view = make_view(camera);
         PaperPipeline pipeline;
-        Reader reader(pipeline.build({&view, 1}, lights_of(lights), {.tile_px = 16}));
-        EXPECT_GT(expect_complete(reader, 0, camera, lights, points_in_lights(camera, lights, 3000, 6)), 3000u);
+        for (CellTest cell_test : {CellTest::box, CellTest::tight}) {
+            Reader reader(pipeline.build({&view, 1}, lights_of(lights), {.tile_px = 16, .cell_test = cell_test}));
+            EXPECT_GT(expect_complete(reader, 0, camera, lights, points_in_lights(camera, lights, 3000, 6)), 3000u);
+        }
     }
 }
 
@@ -134,10 +141,48 @@ TEST(Exactness, AtTileEdges) {
     }
     const ManylightsView view = make_view(camera);
     PaperPipeline pipeline;
-    Reader reader(pipeline.build({&view, 1}, lights_of(lights), {.structure = Structure::clustered}));
-    // Points a rounding error off their pixel's border are still within the promise's reach of both pixels, or not by
-    // less than the widening.
-    EXPECT_GT(expect_complete(reader, 0, camera, lights, points), 1000u);
+    for (CellTest cell_test : {CellTest::box, CellTest::tight}) {
+        Reader reader(
+            pipeline.build({&view, 1}, lights_of(lights), {.structure = Structure::clustered, .cell_test = cell_test}));
+        // Points a rounding error off their pixel's border are still within the promise's reach of both pixels, or not
+        // by less than the widening.
+        EXPECT_GT(expect_complete(reader, 0, camera, lights, points), 1000u);
+    }
+}
+
+// Where a column's edge, a row's edge and a slice's edge meet: spheres on all sides of such a corner that only just
+// hold it, asked for in the eight cells around it.
+TEST(Exactness, AtCellCorners) {
+    CameraCase camera{.yaw = 0.0, .pitch = 0.0, .width = 480, .height = 480};
+    for (float& coordinate : camera.position) coordinate = 0.0f;
+    const Options options{
+        .structure = Structure::clustered, .tile_px = 16, .slice_count = 64, .cell_test = CellTest::tight};
+    SliceTable slices;
+    slices.update(options, options.slice_count);
+    constexpr double kCot = 1.7320508075688772;
+    Random random(17);
+    std::vector<ManylightsSphere> lights;
+    std::vector<PointCase> points;
+    for (int i = 0; i < 4000; ++i) {
+        const double x = 16.0 * (1 + random.below(29)), y = 16.0 * (1 + random.below(29)); // pixels
+        const float depth = slices.edges()[1 + random.below(63)];
+        const MlFloat3 point{float((2.0 * x / 480.0 - 1.0) / kCot * depth),
+                             float((1.0 - 2.0 * y / 480.0) / kCot * depth), -depth};
+        const double radius = random.between(0.01, 3.0), distance = radius * (1.0 - random.between(0.0, 1e-5));
+        const auto direction = random.direction();
+        lights.push_back({{float(point.x + distance * direction[0]), float(point.y + distance * direction[1]),
+                           float(point.z + distance * direction[2])},
+                          float(radius)});
+        for (double side_x : {-0.5, 0.5})
+            for (double side_y : {-0.5, 0.5})
+                for (double shift : {-0.9, 0.0, 0.9})
+                    points.push_back(
+                        {{float(x + side_x), float(y + side_y)}, float(depth * (1.0 + shift * 0x1p-20)), point});
+    }
+    const ManylightsView view = make_view(camera);
+    PaperPipeline pipeline;
+    Reader reader(pipeline.build({&view, 1}, lights_of(lights), options));
+    EXPECT_GT(expect_complete(reader, 0, camera, lights, points), 20000u);
 }
 
 // The nearest and the farthest points of lights, asked for at the ends of the depths that the promise allows. Trees of
@@ -227,8 +272,9 @@ TEST(Exactness, HugeLightsReachEveryCell) {
     const CameraCase camera{};
     const ManylightsView view = make_view(camera);
     PaperPipeline pipeline;
-    for (Structure structure : {Structure::clustered, Structure::tree, Structure::hybrid}) {
-        Reader reader(pipeline.build({&view, 1}, lights_of(lights), {.structure = structure}));
+    for (const Options& options : {Options{.structure = Structure::clustered}, Options{.structure = Structure::tree},
+                                   Options{}, Options{.cell_test = CellTest::tight}}) {
+        Reader reader(pipeline.build({&view, 1}, lights_of(lights), options));
         for (float depth : {0.1f, 5.0f, 400.0f, 9e5f})
             for (float x : {0.5f, 300.5f, 639.5f})
                 EXPECT_GE(reader.ask(0, {x, 100.5f}, depth).lights.size(), 4u) << depth << ' ' << x;

@@ -75,6 +75,35 @@ TEST(QualityCases, options_narrow_it_down) {
     }
 }
 
+std::vector<OptionValues> options_of_clustered(const Case& c) {
+    std::vector<OptionValues> found;
+    for (const TechniqueChoice& technique : c.techniques)
+        if (technique.name == "clustered") found.push_back(technique.options);
+    return found;
+}
+
+TEST(QualityCases, lists_have_rivals_of_finer_grids_where_lights_are_many) {
+    const OptionValues coarse{{"tile_size", "48"}, {"slice_count", "16"}};
+    const OptionValues fine{{"tile_size", "32"}, {"slice_count", "64"}, {"cell_test", "tight"}, {"loop", "wave"}};
+    const OptionValues finest{{"tile_size", "16"}, {"slice_count", "128"}, {"cell_test", "tight"}, {"loop", "wave"}};
+    SuiteOptions options = built_in_scenes();
+    for (const bool quick : {false, true}) {
+        options.quick = quick;
+        std::size_t with_rivals = 0;
+        for (const Case& c : quality_cases(options).cases) {
+            const std::uint32_t count = c.lights.count;
+            const bool wanted = count == 65536 || (!quick && (count == 8192 || count == 1048576));
+            with_rivals += wanted;
+            EXPECT_EQ(options_of_clustered(c),
+                      wanted ? (std::vector<OptionValues>{coarse, fine, finest}) : std::vector<OptionValues>{coarse})
+                << count << " lights";
+        }
+        EXPECT_EQ(with_rivals, quick ? 3u * (1 + 2) : 3u * (3 * 4 + 2 * 16));
+    }
+    options.techniques = {"exact"};
+    for (const Case& c : quality_cases(options).cases) EXPECT_EQ(c.techniques.size(), 1u);
+}
+
 TEST(QualityCases, a_scene_that_is_not_there_is_skipped_with_the_reason) {
     SuiteOptions options;
     options.scenes = {"sponza"};
@@ -127,6 +156,36 @@ TEST(QualityTables, the_path_shows_best_worst_and_the_distance_from_exact) {
     const std::string line = line_with(text, "| clustered");
     for (const char* cell : {" 40.0 |", " 60.0 |", " 80.0 |", " 2.00 |", " 0.38 |", " 10.00 |", " 4.00 |"})
         EXPECT_NE(line.find(cell), std::string::npos) << cell << " in " << line;
+}
+
+Row with_options(Row row, const Row& options) {
+    row["options"] = options;
+    return row;
+}
+
+TEST(QualityTables, rows_of_one_technique_with_other_options_are_not_mixed) {
+    const Row coarse{{"tile_size", "48"}, {"slice_count", "16"}};
+    const Row fine{{"tile_size", "32"}, {"slice_count", "64"}, {"cell_test", "tight"}, {"leaf_size", "4"}};
+    const std::vector<Row> rows{with_options(row_with_cost("clustered", "a", 30, 3, 40), coarse),
+                                with_options(row_with_cost("clustered", "a", 6, 3, 12), fine),
+                                row_with_cost("exact", "a", 3, 3, 3),
+                                with_options(row_with_cost("clustered", "b", 20, 2, 20), coarse),
+                                with_options(row_with_cost("clustered", "b", 4, 2, 8), fine),
+                                row_with_cost("exact", "b", 2, 2, 2),
+                                with_options(row_with_cost("clustered", "path:0", 30, 3, 40), coarse),
+                                with_options(row_with_cost("clustered", "path:0", 6, 3, 12), fine),
+                                row_with_cost("exact", "path:0", 3, 3, 3)};
+    const std::string text = quality_tables(rows);
+    EXPECT_NE(text.find("mean of 2 cameras"), std::string::npos);
+    const std::string coarse_line = line_with(text, "| clustered 48x16 "),
+                      fine_start = "| clustered 32x64 tight leaf_size=4 ";
+    EXPECT_NE(coarse_line.find(" 10.00 |"), std::string::npos) << text;
+    EXPECT_NE(coarse_line.find(" 30.0 |"), std::string::npos) << text;
+    EXPECT_NE(line_with(text, fine_start).find(" 2.00 |"), std::string::npos) << text;
+    EXPECT_NE(line_with(text, fine_start).find(" 10.0 |"), std::string::npos) << text;
+    const std::size_t path = text.find("of the path");
+    EXPECT_NE(line_with(text, fine_start, path).find(" 4.00 |"), std::string::npos) << "worst over exact; " << text;
+    EXPECT_NE(text.find("| exact "), std::string::npos) << "one set of options needs no more than the name";
 }
 
 TEST(QualityTables, a_wrong_light_set_has_no_figure) {

@@ -121,7 +121,8 @@ TEST(SphereBounds, NarrowDepthsToTheCap) {
     const double reach = std::sqrt(25.0 - h * h) / std::sqrt(2.0);
     EXPECT_NEAR(span.low, center - reach, 1e-3);
     EXPECT_NEAR(span.high, 15.0, 1e-3);
-    EXPECT_NEAR(wedge_depths(-1.0f, 1.0f, 16.0f, 10.0f, 5.0f).high, 13.0 + std::sqrt(25.0 - 18.0) / std::sqrt(2.0), 1e-3);
+    EXPECT_NEAR(wedge_depths(-1.0f, 1.0f, 16.0f, 10.0f, 5.0f).high, 13.0 + std::sqrt(25.0 - 18.0) / std::sqrt(2.0),
+                1e-3);
 }
 
 } // namespace
