@@ -89,7 +89,11 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical) {
         info.memory_bytes = std::max<std::uint64_t>(info.memory_bytes, memory.memoryHeaps[heap].size);
     std::copy_n(properties.limits.maxComputeWorkGroupCount.begin(), 3, info.max_workgroups);
     info.max_image_size = properties.limits.maxImageDimension2D;
-    info.subgroup_size = chain.get<vk::PhysicalDeviceVulkan11Properties>().subgroupSize;
+    const auto& subgroups = chain.get<vk::PhysicalDeviceVulkan11Properties>();
+    constexpr auto kOperations = vk::SubgroupFeatureFlagBits::eBallot | vk::SubgroupFeatureFlagBits::eArithmetic;
+    info.subgroup_size = subgroups.subgroupSize;
+    info.has_wave_operations = (subgroups.subgroupSupportedOperations & kOperations) == kOperations &&
+                               (subgroups.subgroupSupportedStages & vk::ShaderStageFlagBits::eCompute);
     return info;
 }
 

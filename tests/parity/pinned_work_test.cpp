@@ -16,13 +16,15 @@ struct Work {
     std::uint64_t tested, nodes, references;
     std::uint64_t visible_lights, structure_references, structure_bytes;
     std::uint64_t wave_tested, wave_affecting, wave_nodes, wave_checks;
+    std::uint64_t wave_batches = 0;
     bool operator==(const Work&) const = default;
 };
 
 void PrintTo(const Work& work, std::ostream* out) {
     *out << "{" << work.tested << ", " << work.nodes << ", " << work.references << ", " << work.visible_lights << ", "
          << work.structure_references << ", " << work.structure_bytes << ", " << work.wave_tested << ", "
-         << work.wave_affecting << ", " << work.wave_nodes << ", " << work.wave_checks << "}";
+         << work.wave_affecting << ", " << work.wave_nodes << ", " << work.wave_checks << ", " << work.wave_batches
+         << "}";
 }
 
 struct PinnedWork {
@@ -31,7 +33,7 @@ struct PinnedWork {
     Work work;
 };
 
-/// Tiles of 8 pixels, so that the small images have 4x3 of them; everything else as it is by default.
+/// Tiles of 8 pixels, so that the small images have 4x3 of them, and waves of 64; everything else as it is by default.
 constexpr PinnedWork kPinnedWork[] = {
     {"canyon", "brute_force", {1990656, 0, 0, 4096, 0, 0, 49152, 510, 0, 0}},
     {"canyon", "exact", {3873, 0, 3873, 223, 3873, 19708, 510, 510, 0, 0}},
@@ -39,24 +41,28 @@ constexpr PinnedWork kPinnedWork[] = {
     {"canyon", "tiled_light_trees", {26807, 24082, 26807, 4096, 6561, 99948, 2271, 510, 1600, 0}},
     {"canyon", "hybrid_light_trees", {28346, 5844, 28346, 4096, 10849, 116808, 2268, 510, 960, 0}},
     {"canyon", "depth_windows", {8288, 970, 25665, 4096, 6490, 66064, 840, 510, 92, 2164}},
+    {"canyon", "depth_windows_wave", {93341, 14620, 2657, 4096, 6490, 66064, 1779, 510, 250, 24, 46}},
     {"citadel", "brute_force", {1110016, 0, 0, 4096, 0, 0, 40960, 336, 0, 0}},
     {"citadel", "exact", {2221, 0, 2221, 191, 2221, 13100, 336, 336, 0, 0}},
     {"citadel", "clustered", {12570, 271, 12570, 3195, 12654, 52284, 1835, 336, 33, 0}},
     {"citadel", "tiled_light_trees", {9947, 10138, 9947, 3195, 7688, 130056, 1128, 336, 884, 0}},
     {"citadel", "hybrid_light_trees", {10353, 1574, 10353, 3195, 12654, 167484, 1119, 336, 574, 0}},
     {"citadel", "depth_windows", {4205, 542, 9407, 3195, 7545, 62904, 562, 336, 36, 1160}},
+    {"citadel", "depth_windows_wave", {41114, 4026, 1656, 3195, 7545, 62904, 792, 336, 41, 11, 24}},
     {"bars", "brute_force", {2093056, 0, 0, 4096, 0, 0, 49152, 701, 0, 0}},
     {"bars", "exact", {3966, 0, 3966, 391, 3966, 20080, 701, 701, 0, 0}},
     {"bars", "clustered", {37737, 511, 37737, 3250, 12893, 53240, 4346, 701, 74, 0}},
     {"bars", "tiled_light_trees", {29393, 25000, 29393, 3250, 6331, 101076, 3150, 701, 2106, 0}},
     {"bars", "hybrid_light_trees", {30999, 5838, 30999, 3250, 12893, 145512, 3138, 701, 1686, 0}},
     {"bars", "depth_windows", {8395, 1022, 26439, 3250, 6153, 51432, 1217, 701, 68, 3158}},
+    {"bars", "depth_windows_wave", {139597, 16882, 4464, 3250, 6153, 51432, 2440, 701, 84, 14, 68}},
     {"cornell", "brute_force", {1183744, 0, 0, 4096, 0, 0, 36864, 1333, 0, 0}},
     {"cornell", "exact", {1749, 0, 1749, 1284, 1749, 11212, 1333, 1333, 0, 0}},
     {"cornell", "clustered", {87725, 289, 87725, 4096, 7941, 33432, 5055, 1333, 24, 0}},
     {"cornell", "tiled_light_trees", {43382, 31264, 43382, 4096, 5351, 86916, 3543, 1333, 2306, 0}},
     {"cornell", "hybrid_light_trees", {42853, 30168, 42853, 4096, 7941, 121640, 3532, 1333, 2714, 0}},
     {"cornell", "depth_windows", {5673, 578, 54753, 4096, 5326, 44136, 2181, 1333, 36, 4102}},
+    {"cornell", "depth_windows_wave", {194424, 20654, 5272, 4096, 5326, 44136, 3217, 1333, 53, 18, 82}},
 };
 
 class PinnedWorkTest : public TechniquesTest, public testing::WithParamInterface<PinnedWork> {};
@@ -77,7 +83,8 @@ Work work_of(const std::vector<PixelRecord>& records, const TechniqueStats& stat
               waves.tested,
               waves.affecting,
               waves.nodes,
-              waves.checks};
+              waves.checks,
+              waves.batches};
     for (const PixelRecord& record : records) {
         work.tested += record.tested;
         work.nodes += record.nodes;
@@ -93,8 +100,10 @@ TEST_P(PinnedWorkTest, is_what_is_pinned) {
     const Frame frame{view.scene, view.saved.camera, view.saved.width, view.saved.height, view.lights, points};
     const std::string name = GetParam().technique;
     const bool has_tiles = name != "brute_force" && name != "exact";
-    const std::unique_ptr<Technique> technique =
-        make_technique(device(), name, has_tiles ? OptionValues{{"tile_size", "8"}} : OptionValues{});
+    OptionValues options;
+    if (has_tiles) options.emplace_back("tile_size", "8");
+    if (name == "depth_windows_wave") options.emplace_back("wave", "64"); // the device's own are of its size
+    const std::unique_ptr<Technique> technique = make_technique(device(), name, options);
     technique->prepare(frame);
     const std::vector<PixelRecord> records = technique->record(frame);
     EXPECT_EQ(light_set_hash(records), pinned.light_set_hash) << std::hex << light_set_hash(records);

@@ -96,6 +96,9 @@ std::vector<Variant> structure_variants() {
             {"tiled_light_trees", "tiled_light_trees", {}},
             {"hybrid_light_trees", "hybrid_light_trees", {}},
             {"depth_windows", "depth_windows", {}},
+            {"depth_windows_wave", "depth_windows_wave", {}},
+            {"depth_windows_wave_32", "depth_windows_wave", {{"wave", "32"}}},
+            {"depth_windows_wave_64", "depth_windows_wave", {{"wave", "64"}}},
             {"clustered_paper", "clustered", {{"producer", "paper"}}},
             {"tiled_light_trees_paper", "tiled_light_trees", {{"producer", "paper"}}},
             {"hybrid_light_trees_paper", "hybrid_light_trees", {{"producer", "paper"}}}};
