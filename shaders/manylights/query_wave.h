@@ -1,5 +1,5 @@
-// Which lights may reach the points of a wave? A cursor for compute shaders over the buffers of a view with windows: the
-// lanes of a wave test one candidate each against what all of their points cover, and share what is left. Include
+// Which lights may reach the points of a wave? A cursor for compute shaders over the buffers of a view with windows:
+// the lanes of a wave test one candidate each against what all of their points cover, and share what is left. Include
 // <manylights/query.h> with its accessors first; then
 //
 //     #include <manylights/query_wave.h>
@@ -15,7 +15,8 @@
 // handed to it twice. What is the same in all lanes, and when:
 //
 //   the first call of ml_wave_next_batch   in uniform control flow: the lanes active there are the wave. Later some may
-//                                          be missing: the candidates that they would have tested go to all lanes untested
+//                                          be missing: the candidates that they would have tested go to all lanes
+//                                          untested
 //   cursor.is_shared                       the same in all lanes. True: ml_wave_next hands the same lights, in the same
 //                                          order, to all lanes with a point in the current tile. False: the batch had
 //                                          fewer than ML_WAVE_FEW candidates, and each lane has picked its own
@@ -31,8 +32,8 @@
 //     #define ML_WAVE_SHARED(i) words[i]       a uint of workgroup memory, i below ML_WAVE_GROUP_SIZE; for nothing else
 //                                              between ml_wave_begin and the end of the outer loop
 //
-// and every invocation of the workgroup calls ml_wave_next_batch, in uniform control flow, until it is false, which it is
-// for all at once. In C++ ML_WAVE_BARRIER() is needed as well.
+// and every invocation of the workgroup calls ml_wave_next_batch, in uniform control flow, until it is false, which it
+// is for all at once. In C++ ML_WAVE_BARRIER() is needed as well.
 #if !defined(ML_WAVE_FEW)
 #define ML_WAVE_FEW 12u
 #endif
@@ -176,8 +177,8 @@ ML_FN void ml_wave_gather(ML_INOUT(MlWaveCursor) cursor) {
     cursor.places = ml_wave_or(cursor.takes_part ? (1u << cursor.step_x) | (0x10000u << cursor.step_y) : 0u);
 }
 
-// The slice in which a candidate begins, or the wave's first one where it begins before: the first one whose window ends
-// behind it.
+// The slice in which a candidate begins, or the wave's first one where it begins before: the first one whose window
+// ends behind it.
 ML_FN MlUint ml_wave_slice(ML_INOUT(MlWaveCursor) cursor, MlUint candidate) {
     MlUint first = cursor.first_slice, last = cursor.last_slice;
     MlUint reference = ml_wave_reference(cursor, candidate);

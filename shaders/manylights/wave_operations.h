@@ -1,5 +1,5 @@
-// What a wave does together, for query_wave.h: by the language's own operations, or emulated in workgroup memory. There,
-// every operation is a barrier or two of the whole workgroup.
+// What a wave does together, for query_wave.h: by the language's own operations, or emulated in workgroup memory.
+// There, every operation is a barrier or two of the whole workgroup.
 #if defined(__cplusplus)
 #define ml_lowest_bit(bits) MlUint(std::countr_zero(bits))
 #elif !defined(ML_HLSL) && (defined(GL_core_profile) || defined(GL_ES))

