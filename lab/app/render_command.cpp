@@ -65,7 +65,7 @@ std::vector<CellClass> classes_of(Technique& technique, const Frame& frame) {
     std::vector<CellClass> classes = technique.classify(frame);
     if (classes.empty())
         throw InputError(fmt::format("--view structure: {} has no cells; clustered, tiled_light_trees, "
-                                     "hybrid_light_trees and depth_windows have",
+                                     "hybrid_light_trees, depth_windows and depth_windows_wave have",
                                      technique.info().name));
     return classes;
 }

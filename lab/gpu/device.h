@@ -25,7 +25,7 @@ struct DeviceInfo {
     std::uint32_t max_workgroups[3]{};          ///< per dispatch
     std::uint32_t max_image_size = 0;
     std::uint32_t subgroup_size = 0;
-    bool subgroup_operations = false; ///< vote, ballot and arithmetic, in compute shaders
+    bool has_wave_operations = false; ///< vote, ballot and reductions over a subgroup, in compute shaders
 };
 
 /// All devices with Vulkan 1.3, the best first: real GPUs before software, newer software drivers before older ones.

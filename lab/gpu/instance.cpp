@@ -90,10 +90,10 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical) {
     std::copy_n(properties.limits.maxComputeWorkGroupCount.begin(), 3, info.max_workgroups);
     info.max_image_size = properties.limits.maxImageDimension2D;
     const auto& subgroups = chain.get<vk::PhysicalDeviceVulkan11Properties>();
+    constexpr auto kOperations = vk::SubgroupFeatureFlagBits::eVote | vk::SubgroupFeatureFlagBits::eBallot |
+                                 vk::SubgroupFeatureFlagBits::eArithmetic;
     info.subgroup_size = subgroups.subgroupSize;
-    const vk::SubgroupFeatureFlags wanted = vk::SubgroupFeatureFlagBits::eVote | vk::SubgroupFeatureFlagBits::eBallot |
-                                            vk::SubgroupFeatureFlagBits::eArithmetic;
-    info.subgroup_operations = (subgroups.subgroupSupportedOperations & wanted) == wanted &&
+    info.has_wave_operations = (subgroups.subgroupSupportedOperations & kOperations) == kOperations &&
                                (subgroups.subgroupSupportedStages & vk::ShaderStageFlagBits::eCompute);
     return info;
 }

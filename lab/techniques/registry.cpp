@@ -4,6 +4,7 @@
 #include "lab/techniques/brute_force/brute_force.h"
 #include "lab/techniques/clustered/clustered.h"
 #include "lab/techniques/depth_windows/depth_windows.h"
+#include "lab/techniques/depth_windows_wave/depth_windows_wave.h"
 #include "lab/techniques/exact/exact.h"
 #include "lab/techniques/hybrid_light_trees/hybrid_light_trees.h"
 #include "lab/techniques/tiled_light_trees/tiled_light_trees.h"
@@ -24,6 +25,7 @@ constexpr Entry kTechniques[] = {
     {tiled_light_trees_info, make_tiled_light_trees},
     {hybrid_light_trees_info, make_hybrid_light_trees},
     {depth_windows_info, make_depth_windows},
+    {depth_windows_wave_info, make_depth_windows_wave},
 };
 
 } // namespace

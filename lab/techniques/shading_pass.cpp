@@ -16,6 +16,8 @@ constexpr std::uint32_t kPoison = 0xCDCDCDCD;
 // Output of one dispatch: below the 128 MiB that Vulkan promises for a binding, and a 1920 x 1080 picture in one piece.
 constexpr std::uint64_t kOutputBytes = std::uint64_t{32} << 20;
 
+const std::vector<std::uint32_t> kNoConstants, kWaveOf64{64}, kWaveOf32{32};
+
 // Rows of one dispatch: whole groups, or the image's rest.
 std::uint32_t band_rows(const Frame& frame, std::uint64_t bytes_per_pixel) {
     const std::uint64_t rows = kOutputBytes / (bytes_per_pixel * frame.width) / kGroupEdge * kGroupEdge;
@@ -38,17 +40,22 @@ FrameLights::FrameLights(gpu::Device& device, const Frame& frame)
       colors(device, "light colours", std::span<const glm::vec4>(stream.colors), gpu::Memory::device) {}
 
 ShadingPass::ShadingPass(gpu::Device& device, const PassShaders& shaders, LightSplit split)
-    : device_(device), split_(split), record_pipeline_(make_pipeline(shaders, "record", shaders.record)),
-      shade_pipeline_(make_pipeline(shaders, "shade", shaders.shade)),
-      log_pipeline_(make_pipeline(shaders, "log", shaders.log)) {}
+    : device_(device), split_(split),
+      record_pipeline_(make_pipeline(shaders, "record", shaders.record, shaders.constants)),
+      shade_pipeline_(make_pipeline(shaders, "shade", shaders.shade, shaders.constants)),
+      log_pipeline_(make_pipeline(shaders, "log", shaders.log, shaders.log_has_wave_size ? kWaveOf64 : kNoConstants)) {
+    if (shaders.log_has_wave_size) log_32_pipeline_ = make_pipeline(shaders, "log", shaders.log, kWaveOf32);
+}
 
 gpu::ComputePipeline ShadingPass::make_pipeline(const PassShaders& shaders, const char* form,
-                                                std::span<const std::uint32_t> code) {
+                                                std::span<const std::uint32_t> code,
+                                                const std::vector<std::uint32_t>& constants) {
     gpu::ComputeShader shader;
     shader.name = shaders.name + " (" + form + ")";
     shader.code = code;
     shader.buffer_count = kCommonBuffers + shaders.structure_buffers;
     shader.push_constant_bytes = sizeof(PassPush);
+    shader.specialization = constants;
     return gpu::ComputePipeline(device_, shader);
 }
 
@@ -123,8 +130,11 @@ std::vector<float> ShadingPass::shade(const Frame& frame, const FrameLights& lig
 
 WaveSummary ShadingPass::waves(const Frame& frame, const FrameLights& lights, std::span<const PassBand> bands,
                                std::uint64_t tested_by_all, std::uint64_t log_bytes) {
-    return find_waves(device_, log_pipeline_,
-                      {frame, lights.stream.light_count(), lights.spheres, bands, split_, tested_by_all, log_bytes});
+    const TouchLogInput input{frame,    lights.stream.light_count(), lights.spheres, bands, split_, tested_by_all,
+                              log_bytes};
+    WaveSummary summary = find_waves(device_, log_pipeline_, input);
+    if (log_32_pipeline_) summary.lanes_32 = find_waves(device_, *log_32_pipeline_, input).lanes_32;
+    return summary;
 }
 
 } // namespace manylights::lab

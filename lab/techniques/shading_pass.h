@@ -8,6 +8,8 @@
 #include "lab/techniques/light_stream.h"
 #include "lab/techniques/touch_log.h"
 
+#include <optional>
+
 namespace manylights::lab {
 
 /// The lights of a frame on the host and on the device.
@@ -23,6 +25,10 @@ struct PassShaders {
     std::string name;
     std::span<const std::uint32_t> record, shade, log;
     std::uint32_t structure_buffers = 0;
+    std::vector<std::uint32_t> constants{}; ///< specialization constants of record and shade
+    /// The lanes of a wave work together, so that what they touch depends on its size: constant 0 of the log form,
+    /// which is run for waves of 64 and of 32.
+    bool log_has_wave_size = false;
 };
 
 class ShadingPass {
@@ -45,13 +51,15 @@ class ShadingPass {
     double dispatch(const gpu::ComputePipeline& pipeline, const Frame& frame, const FrameLights& lights,
                     const PassBand& rows, const gpu::Buffer& output);
     gpu::ComputePipeline make_pipeline(const PassShaders& shaders, const char* form,
-                                       std::span<const std::uint32_t> code);
+                                       std::span<const std::uint32_t> code,
+                                       const std::vector<std::uint32_t>& constants);
     void warm_up(const gpu::ComputePipeline& pipeline);
 
     gpu::Device& device_;
     LightSplit split_;
     gpu::ComputePipeline record_pipeline_, shade_pipeline_, log_pipeline_;
-    bool is_warm_ = false; ///< the shade pipeline has its machine code
+    std::optional<gpu::ComputePipeline> log_32_pipeline_; ///< where log_pipeline_ is for waves of 64 only
+    bool is_warm_ = false;                                ///< the shade pipeline has its machine code
 };
 
 } // namespace manylights::lab

@@ -52,7 +52,10 @@ QueryShaders cursor_shaders() { return {kRecordCode, kShadeCode, kLogCode}; }
 StructureTechnique::StructureTechnique(gpu::Device& device, TechniqueInfo info, StructureKind kind,
                                        const OptionValues& values, const QueryShaders& shaders)
     : device_(device), info_(std::move(info)), producer_(make_producer(read_structure_options(info_, kind, values))),
-      buffers_(device), pass_(device, {info_.name, shaders.record, shaders.shade, shaders.log, 5}, LightSplit::none) {}
+      buffers_(device),
+      pass_(device,
+            {info_.name, shaders.record, shaders.shade, shaders.log, 5, shaders.constants, shaders.log_has_wave_size},
+            LightSplit::none) {}
 
 void StructureTechnique::prepare(const Frame& frame) {
     lights_.emplace(device_, frame);

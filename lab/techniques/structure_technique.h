@@ -9,9 +9,12 @@
 
 namespace manylights::lab {
 
-/// The forms of a shader that walks the structure; its five buffers follow the common ones, as in cursor.glsl.
+/// The forms of a shader that walks the structure; its five buffers follow the common ones, as in
+/// structure_accessors.glsl.
 struct QueryShaders {
     std::span<const std::uint32_t> record, shade, log;
+    std::vector<std::uint32_t> constants{}; ///< as in PassShaders
+    bool log_has_wave_size = false;
 };
 /// The library's per-pixel cursor: cursor.glsl.
 QueryShaders cursor_shaders();

@@ -26,7 +26,8 @@
 // ml_depth_code on both sides: producer and reader cannot disagree at an edge. Tiles are in order without gaps: each
 // has its references and its entries where those of the tile before end, the first of a view behind those of the view
 // before (entries: behind the view's headers). From slice to slice a window's ends never go back, and no reference of a
-// class is outside of all windows.
+// class is outside of all windows. The references of a class ascend by the slice of their near end: a window ends
+// behind the last one that begins in its slice or before.
 #ifndef MANYLIGHTS_FORMAT_H
 #define MANYLIGHTS_FORMAT_H
 

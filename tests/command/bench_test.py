@@ -14,7 +14,7 @@ from harness import PROGRAM, CommandTest
 VIEW = ["--detail", "low", "--size", "64x36"]
 SMALL_BENCH = ["bench", "quality", "--scenes", "bars", *VIEW, "--out", "out"]
 TINY = [*SMALL_BENCH, "--views", "path", "--lights", "300,600"]
-TECHNIQUES = ["exact", "clustered", "tiled_light_trees", "hybrid_light_trees", "depth_windows"]
+TECHNIQUES = ["exact", "clustered", "tiled_light_trees", "hybrid_light_trees", "depth_windows", "depth_windows_wave"]
 TIMES = ("build_ms", "cold_build_ms", "stages_ms", "shade_ms", "shade_over_exact")
 
 

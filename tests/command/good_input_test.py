@@ -8,7 +8,7 @@ import unittest
 
 from harness import SMALL, CommandTest
 
-CELLS = ("clustered", "tiled_light_trees", "hybrid_light_trees", "depth_windows")
+CELLS = ("clustered", "tiled_light_trees", "hybrid_light_trees", "depth_windows", "depth_windows_wave")
 
 
 def png_size(path):

@@ -18,13 +18,15 @@ struct Work {
     std::uint64_t tested, nodes, references;
     std::uint64_t visible_lights, structure_references, structure_bytes;
     std::uint64_t wave_tested, wave_affecting, wave_nodes, wave_checks;
+    std::uint64_t wave_batches = 0;
     bool operator==(const Work&) const = default;
 };
 
 void PrintTo(const Work& work, std::ostream* out) {
     *out << "{" << work.tested << ", " << work.nodes << ", " << work.references << ", " << work.visible_lights << ", "
          << work.structure_references << ", " << work.structure_bytes << ", " << work.wave_tested << ", "
-         << work.wave_affecting << ", " << work.wave_nodes << ", " << work.wave_checks << "}";
+         << work.wave_affecting << ", " << work.wave_nodes << ", " << work.wave_checks << ", " << work.wave_batches
+         << "}";
 }
 
 struct PinnedWork {
@@ -47,6 +49,7 @@ constexpr PinnedWork kPinnedWork[] = {
     {"canyon", "hybrid_light_trees", {28346, 5844, 28346, 4096, 10849, 116808, 2268, 510, 960, 0}},
     {"canyon", "depth_windows", {8284, 970, 23505, 4096, 6490, 71728, 839, 510, 104, 2060}},
     {"canyon", "depth_windows", {8284, 970, 15720, 4096, 864, 9680, 839, 510, 93, 861}, "depth=on"},
+    {"canyon", "depth_windows_wave", {93064, 15069, 2944, 4096, 6490, 71728, 1779, 510, 282, 15, 45}, "wave=64"},
     {"citadel", "brute_force", {1110016, 0, 0, 4096, 0, 0, 40960, 336, 0, 0}},
     {"citadel", "exact", {2221, 0, 2221, 191, 2221, 13100, 336, 336, 0, 0}},
     {"citadel", "clustered", {12570, 271, 12570, 3195, 12654, 52284, 1835, 336, 33, 0}},
@@ -58,6 +61,7 @@ constexpr PinnedWork kPinnedWork[] = {
     {"citadel", "hybrid_light_trees", {10353, 1574, 10353, 3195, 12654, 167484, 1119, 336, 574, 0}},
     {"citadel", "depth_windows", {4168, 542, 8170, 3195, 7545, 65056, 558, 336, 44, 1058}},
     {"citadel", "depth_windows", {4168, 542, 6977, 3195, 567, 5504, 558, 336, 40, 567}, "depth=on"},
+    {"citadel", "depth_windows_wave", {40984, 4929, 1656, 3195, 7545, 65056, 788, 336, 61, 11, 24}, "wave=64"},
     {"bars", "brute_force", {2093056, 0, 0, 4096, 0, 0, 49152, 701, 0, 0}},
     {"bars", "exact", {3966, 0, 3966, 391, 3966, 20080, 701, 701, 0, 0}},
     {"bars", "clustered", {37737, 511, 37737, 3250, 12893, 53240, 4346, 701, 74, 0}},
@@ -69,6 +73,7 @@ constexpr PinnedWork kPinnedWork[] = {
     {"bars", "hybrid_light_trees", {30999, 5838, 30999, 3250, 12893, 145512, 3138, 701, 1686, 0}},
     {"bars", "depth_windows", {8368, 1022, 22203, 3250, 6153, 53144, 1216, 701, 89, 2914}},
     {"bars", "depth_windows", {8368, 1022, 15190, 3250, 1244, 12200, 1216, 701, 88, 1244}, "depth=on"},
+    {"bars", "depth_windows_wave", {139526, 20368, 4156, 3250, 6153, 53144, 2434, 701, 141, 8, 68}, "wave=64"},
     {"cornell", "brute_force", {1183744, 0, 0, 4096, 0, 0, 36864, 1333, 0, 0}},
     {"cornell", "exact", {1749, 0, 1749, 1284, 1749, 11212, 1333, 1333, 0, 0}},
     {"cornell", "clustered", {87725, 289, 87725, 4096, 7941, 33432, 5055, 1333, 24, 0}},
@@ -80,6 +85,7 @@ constexpr PinnedWork kPinnedWork[] = {
     {"cornell", "hybrid_light_trees", {42853, 30168, 42853, 4096, 7941, 121640, 3532, 1333, 2714, 0}},
     {"cornell", "depth_windows", {5666, 578, 50523, 4096, 5326, 44880, 2176, 1333, 40, 3855}},
     {"cornell", "depth_windows", {5666, 562, 34462, 4096, 2366, 20232, 2176, 1333, 38, 2366}, "depth=on"},
+    {"cornell", "depth_windows_wave", {193853, 23523, 5569, 4096, 5326, 44880, 3213, 1333, 80, 23, 80}, "wave=64"},
 };
 
 class PinnedWorkTest : public TechniquesTest, public testing::WithParamInterface<PinnedWork> {};
@@ -100,7 +106,8 @@ Work work_of(const std::vector<PixelRecord>& records, const TechniqueStats& stat
               waves.tested,
               waves.affecting,
               waves.nodes,
-              waves.checks};
+              waves.checks,
+              waves.batches};
     for (const PixelRecord& record : records) {
         work.tested += record.tested;
         work.nodes += record.nodes;

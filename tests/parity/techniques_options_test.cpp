@@ -30,7 +30,7 @@ void expect_words(const std::string& message, const std::vector<std::string>& wo
 TEST_F(TechniquesTest, unknown_technique_names_the_choices) {
     const std::string message = refusal(device(), "magic", {});
     expect_words(message, {"magic", "brute_force", "exact", "clustered", "tiled_light_trees", "hybrid_light_trees",
-                           "depth_windows"});
+                           "depth_windows", "depth_windows_wave"});
 }
 
 TEST_F(TechniquesTest, unknown_option_names_the_keys) {
@@ -56,6 +56,9 @@ TEST_F(TechniquesTest, values_out_of_range_name_the_range) {
         expect_words(refusal(device(), "tiled_light_trees", {{"leaf_size", value}}), {"leaf_size", "1", "65535"});
     for (const char* value : {"0", "-5", "nan", "inf", "far"})
         expect_words(refusal(device(), "clustered", {{"slice_near", value}}), {"slice_near", value});
+    for (const char* value : {"", "128", "subgroups"})
+        expect_words(refusal(device(), "depth_windows_wave", {{"wave", value}}),
+                     {"depth_windows_wave", "wave", "subgroup, 4, 8, 16, 32, 64"});
     expect_words(refusal(device(), "clustered", {{"producer", "magic"}}), {"producer", "magic", "library", "paper"});
     for (const char* value : {"1", "yes", ""})
         expect_words(refusal(device(), "depth_windows", {{"depth", value}}), {"depth_windows", "depth=", "off, on"});
@@ -94,7 +97,7 @@ TEST_F(TechniquesTest, tight_cells_and_the_loop_of_waves_choose_the_producer) {
 
 TEST(Techniques, infos_name_every_technique_and_their_options) {
     const std::vector<TechniqueInfo> infos = technique_infos();
-    ASSERT_EQ(infos.size(), 6u);
+    ASSERT_EQ(infos.size(), 7u);
     EXPECT_EQ(infos[0].name, "brute_force");
     EXPECT_EQ(infos[1].name, "exact");
     for (const TechniqueInfo& info : infos) EXPECT_FALSE(info.summary.empty());

@@ -200,6 +200,32 @@ TEST_F(Waves, references_in_range_are_those_handed_out_whatever_their_rectangles
     EXPECT_EQ(in_range, static_cast<double>(handed_out) / static_cast<double>(shaded));
 }
 
+// A wave of 64 and one of 32 see different points together, whatever the waves of the device are.
+TEST_F(Waves, that_work_together_are_those_of_the_model) {
+    for (const ImageSize size : kSizes) {
+        const View view = made_view(device(), size.width, size.height, 700);
+        const HostStructure structure = Built(device(), StructureKind::windows, view.frame()).on_host();
+        const WaveWork alone_64 = expected_work(view, 8, &structure), alone_32 = expected_work(view, 4, &structure);
+        const WaveSummary summary = waves_of(device(), "depth_windows_wave", view.frame());
+        for (const char* wave : {"4", "64"}) {
+            const std::unique_ptr<Technique> other = make_technique(device(), "depth_windows_wave", {{"wave", wave}});
+            other->prepare(view.frame());
+            EXPECT_EQ(other->waves(view.frame()), summary) << text_of(wave, size);
+        }
+        EXPECT_EQ(summary.lanes_64.waves, alone_64.waves);
+        EXPECT_EQ(summary.lanes_32.waves, alone_32.waves);
+        EXPECT_EQ(summary.lanes_64.affecting, alone_64.affecting);
+        EXPECT_EQ(summary.lanes_32.affecting, alone_32.affecting);
+        EXPECT_GE(summary.lanes_64.tested, alone_64.affecting);
+        EXPECT_GE(summary.lanes_32.tested, alone_32.affecting);
+        EXPECT_LT(summary.lanes_64.checks, alone_64.checks);
+        EXPECT_GT(summary.lanes_64.batches, 0u);
+        if (size.width < 47) continue;
+        EXPECT_GT(summary.lanes_32.batches * summary.lanes_64.waves, summary.lanes_64.batches * summary.lanes_32.waves)
+            << "batches are of fewer candidates";
+    }
+}
+
 TEST_F(Waves, of_brute_force_test_every_light) {
     for (const ImageSize size : kSizes) {
         const View view = made_view(device(), size.width, size.height, 300);

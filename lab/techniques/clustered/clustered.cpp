@@ -18,7 +18,7 @@ constexpr std::uint32_t kShadeCode[] =
 // modelled waves make of any log.
 QueryShaders shaders_of(ListLoop loop, const gpu::DeviceInfo& device) {
     if (loop == ListLoop::lane) return cursor_shaders();
-    if (!device.subgroup_operations)
+    if (!device.has_wave_operations)
         throw DeviceError("clustered: option loop=wave: the device " + device.name +
                           " lacks subgroup votes, ballots or arithmetic");
     return {kRecordCode, kShadeCode, cursor_shaders().log};

@@ -1,0 +1,4 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define ML_WAVE_EMULATED
+#include "lab/techniques/depth_windows_wave/depth_windows_wave.glsl"
