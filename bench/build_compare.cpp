@@ -90,7 +90,9 @@ Contender ours(const char* name, std::uint32_t structure, std::uint32_t tile_px)
 Contender papers() {
     auto pipeline = std::make_shared<paper::PaperPipeline>();
     return {"paper hybrid 48",
-            [pipeline](const Frame& frame) { pipeline->build({&frame.view, 1}, frame.lights(), {}); },
+            [pipeline](const Frame& frame) {
+                pipeline->build({&frame.view, 1}, frame.lights(), {});
+            },
             {}};
 }
 

@@ -10,9 +10,9 @@ void hand_allocator_to_arrays(ManylightsBuilder& builder) {
     const Allocator& allocator = builder.settings.allocator;
     for (View& view : builder.views) {
         view.lights.use(allocator);
-        view.spheres.use(allocator);
         view.visible.use(allocator);
     }
+    builder.listed.use(allocator);
     for (Array<SortItem>& items : builder.sort_items) items.use(allocator);
     builder.sorted.use(allocator);
     builder.bins.offsets.use(allocator);

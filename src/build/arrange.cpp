@@ -10,7 +10,8 @@ bool sort_views(ManylightsBuilder& builder) {
     builder.sorted.clear();
     for (std::uint32_t v = 0; v < builder.view_count; ++v) {
         builder.grids[v].first_light = builder.sorted.size();
-        if (!append_sorted(builder.views[v].lights, builder.sort_items, builder.sorted)) return false;
+        if (!list_lights(builder.views[v].lights, builder.slices, builder.listed)) return false;
+        if (!append_sorted(builder.listed, builder.sort_items, builder.sorted)) return false;
         builder.grids[v].end_light = builder.sorted.size();
     }
     return true;
@@ -58,13 +59,14 @@ Fit bin_views(ManylightsBuilder& builder, bool has_to_do) {
 
 // Tasks of write: enough work for each to pay for its start.
 bool prepare_tasks(ManylightsBuilder& builder) {
+    if (has_windows(builder)) {
+        builder.task_count = builder.windows.tile_tasks;
+        return true;
+    }
     constexpr std::uint64_t kWorkPerTask = 1024; // cells, nodes and references
     const Counts& counts = builder.counts;
     const std::uint64_t worthwhile = (counts.cells + counts.nodes + counts.references) / kWorkPerTask + 1;
-    builder.task_count = 1;
-    if (builder.settings.parallel_for != nullptr)
-        builder.task_count =
-            static_cast<std::uint32_t>(std::min<std::uint64_t>(worthwhile, builder.settings.max_workers));
+    builder.task_count = task_count_for(builder.settings, worthwhile, 1);
     const std::size_t heap_size = 2 * static_cast<std::size_t>(builder.nodes.largest_tree_leaves);
     return builder.heaps.resize(heap_size * builder.task_count);
 }
@@ -103,7 +105,7 @@ bool within_budget(const ManylightsBuilder& builder) {
 
 std::uint64_t visible_lights(const ManylightsBuilder& builder) {
     std::uint64_t sum = 0;
-    for (std::uint32_t v = 0; v < builder.view_count; ++v) sum += builder.views[v].lights.size();
+    for (std::uint32_t v = 0; v < builder.view_count; ++v) sum += builder.views[v].lights.count;
     return sum;
 }
 

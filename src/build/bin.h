@@ -2,7 +2,7 @@
 // Lights into cells: count, prefix sum, fill. A light goes to every cell of the box that its pixel rectangle and its
 // slice range span (box binning, as in Tiled Light Trees, section 3.2).
 
-#include "src/build/cull.h"
+#include "src/build/visible_light.h"
 
 #include <cstdint>
 

@@ -7,6 +7,7 @@
 #include "src/build/settings.h"
 #include "src/build/slices.h"
 #include "src/build/sort.h"
+#include "src/build/tasks.h"
 #include "src/build/tree.h"
 #include "src/build/windows.h"
 #include "src/format/layout.h"
@@ -21,6 +22,7 @@ struct ManylightsBuilder {
     bool planned = false;
     std::uint64_t most_elements = UINT32_MAX; // of references, nodes and cells: their offsets have 32 bits
 
+    manylights::detail::Array<manylights::detail::VisibleLight> listed; // of one view
     manylights::detail::Array<manylights::detail::SortItem> sort_items[2];
     manylights::detail::Array<manylights::detail::VisibleLight> sorted; // of all views, one after the other
     manylights::detail::Bins bins;
@@ -55,8 +57,8 @@ Outcome arrange(ManylightsBuilder& builder);
 std::uint32_t first_tile_px(const ManylightsBuilder& builder);
 Fit arrange_windows(ManylightsBuilder& builder, bool has_to_do);
 
-// Windows: headers, entries and references of these tiles, a part of write.
-void write_window_tiles(const ManylightsBuilder& builder, std::uint64_t begin, std::uint64_t end,
+// Windows: headers, entries and references of these tiles, a part of write. Each task has scratch of its own.
+void write_window_tiles(ManylightsBuilder& builder, std::uint32_t task, std::uint64_t begin, std::uint64_t end,
                         const ManylightsBuffers& buffers);
 
 // The buffers of the last plan, into the caller's memory.

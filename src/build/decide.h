@@ -2,6 +2,7 @@
 // Which cells hold a tree, and where each cell's nodes begin. Decided once, in plan; write follows it.
 
 #include "src/build/bin.h"
+#include "src/build/cull.h"
 #include "src/build/settings.h"
 #include "src/build/slices.h"
 

@@ -1,6 +1,7 @@
 #include "src/build/sort.h"
 
 #include <bit>
+#include <cmath>
 
 namespace manylights::detail {
 
@@ -37,6 +38,36 @@ void scatter(const Array<SortItem>& from, Array<SortItem>& to, const std::uint32
 std::uint32_t sortable_key(float value) {
     const auto bits = std::bit_cast<std::uint32_t>(value);
     return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
+}
+
+// The depths are widened by 1.25 * 2^-20: 2^-20 that a caller's depth may be off, and three roundings of 2^-24.
+VisibleLight visible_light(const LightBlock& lights, std::uint32_t at, const Slices& slices) {
+    constexpr float kWidening = 1.25f * 0x1p-20f;
+    const float low = lights.depth[at] - lights.radius[at];
+    const float high = lights.depth[at] + lights.radius[at];
+    VisibleLight light{};
+    light.index = lights.index[at];
+    light.min_depth = low - std::fabs(low) * kWidening;
+    light.max_depth = high + std::fabs(high) * kWidening;
+    light.center_depth = lights.depth[at];
+    const std::uint32_t pixels[2] = {lights.pixels_x[at], lights.pixels_y[at]};
+    for (int i = 0; i < 2; ++i) {
+        light.first_px[i] = static_cast<std::uint16_t>(pixels[i] & 0xFFFF);
+        light.last_px[i] = static_cast<std::uint16_t>(pixels[i] >> 16);
+    }
+    light.first_slice = static_cast<std::uint8_t>(slice_of(slices, light.min_depth));
+    light.last_slice = static_cast<std::uint8_t>(slice_of(slices, light.max_depth));
+    return light;
+}
+
+bool list_lights(ViewLights& view, const Slices& slices, Array<VisibleLight>& lights) {
+    if (!lights.resize(view.count)) return false;
+    std::uint64_t next = 0;
+    for (std::uint64_t b = 0; b < view.block_count(); ++b) {
+        const LightBlock block = view.block(b);
+        for (std::uint32_t i = 0; i < block.count; ++i) lights[next++] = visible_light(block, i, slices);
+    }
+    return true;
 }
 
 bool append_sorted(const Array<VisibleLight>& lights, Array<SortItem> (&items)[2], Array<VisibleLight>& sorted) {

@@ -1,7 +1,7 @@
 #pragma once
 // A cell's nodes, written once each and in ascending order: the destination may be write-combined memory.
 
-#include "src/build/cull.h"
+#include "src/build/visible_light.h"
 
 #include <manylights/format.h>
 

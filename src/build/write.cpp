@@ -51,7 +51,11 @@ void write_views(const ManylightsBuilder& builder, const ManylightsBuffers& buff
 // What comes before this cell in all buffers together. Strictly ascending, so it cuts the cells into tasks of equal
 // work; the cut decides who writes a byte, never which byte.
 std::uint64_t work_before(const ManylightsBuilder& builder, std::uint64_t cell) {
-    if (has_windows(builder)) return kHeaderCells * cell + builder.windows.offsets[cell];
+    if (has_windows(builder)) {
+        const Windows& windows = builder.windows;
+        return kHeaderCells * cell +
+               (cell < windows.tiles.size() ? windows.tiles[cell].first_reference : windows.references);
+    }
     return cell + builder.bins.begin(cell) + builder.nodes.offsets[cell];
 }
 
@@ -101,9 +105,10 @@ void write_references(const ManylightsBuilder& builder, std::uint64_t begin, std
 
 void write_window_task(void* context, std::uint32_t task) {
     const auto& job = *static_cast<const WriteJob*>(context);
-    const ManylightsBuilder& builder = *job.builder;
+    ManylightsBuilder& builder = *job.builder;
     if (task == 0) write_views(builder, *job.buffers);
-    write_window_tiles(builder, first_cell_of_task(builder, task), first_cell_of_task(builder, task + 1), *job.buffers);
+    write_window_tiles(builder, task, first_cell_of_task(builder, task), first_cell_of_task(builder, task + 1),
+                       *job.buffers);
 }
 
 void write_task(void* context, std::uint32_t task) {

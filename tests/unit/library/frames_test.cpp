@@ -33,8 +33,9 @@ struct Threads {
     }
 };
 
+// Lights enough for tasks of their own in every stage: eight blocks.
 TEST(Threads, AnyNumberOfWorkersWritesTheSameBytes) {
-    const auto spheres = make_lights(4000, 8, 50.0, 0.5, 6.0);
+    const auto spheres = make_lights(30000, 8, 50.0, 0.5, 6.0);
     for (const std::uint32_t structure : kStructures) {
         const BuilderPtr serial = make_builder(settings_of(structure));
         const std::string expected = build_frame(serial.get(), {make_view(), make_view()}, spheres).bytes();
