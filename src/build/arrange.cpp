@@ -1,4 +1,5 @@
 #include "src/build/builder.h"
+#include "src/build/windows_plan.h"
 
 #include <algorithm>
 
@@ -93,6 +94,8 @@ void take_stats(ManylightsBuilder& builder, bool over_budget) {
     stats.nodes = builder.counts.nodes;
     take_cell_stats(builder, stats);
     stats.visible_lights = visible_lights(builder);
+    stats.ignored_lights = builder.ignored.count;
+    stats.first_ignored = builder.ignored.first;
     stats.tile_px = builder.grids[0].tile_px;
     stats.over_budget = over_budget ? 1 : 0;
 }
@@ -109,15 +112,27 @@ std::uint64_t visible_lights(const ManylightsBuilder& builder) {
     return sum;
 }
 
+namespace {
+
+// What comes before the work at a tile size.
+bool prepare(ManylightsBuilder& builder, const ManylightsLights& lights) {
+    if (has_windows(builder)) return take_sample(builder, lights);
+    return cull_lights(lights, builder.settings, builder.views, builder.view_count, builder.ignored) &&
+           sort_views(builder);
+}
+
+} // namespace
+
 // Over budget is coarser, never wrong: the tiles double until the bytes fit, or one tile covers every image.
-Outcome arrange(ManylightsBuilder& builder) {
-    if (!has_windows(builder) && !sort_views(builder)) return out_of_memory("lights");
+Outcome arrange(ManylightsBuilder& builder, const ManylightsLights& lights) {
+    if (!prepare(builder, lights)) return out_of_memory("lights");
     Fit fit = Fit::kTooLarge;
-    if (visible_lights(builder) <= builder.most_elements) {
-        for (std::uint32_t tile_px = first_tile_px(builder);; tile_px *= 2) {
+    if (has_windows(builder) || visible_lights(builder) <= builder.most_elements) {
+        const std::uint32_t first_px = has_windows(builder) ? first_tile_px(builder) : builder.settings.tile_px;
+        for (std::uint32_t tile_px = first_px;; tile_px *= 2) {
             lay_out_views(builder, tile_px);
             const bool coarsest = is_coarsest(builder);
-            fit = has_windows(builder) ? arrange_windows(builder, coarsest) : bin_views(builder, coarsest);
+            fit = has_windows(builder) ? arrange_windows(builder, lights, coarsest) : bin_views(builder, coarsest);
             if (coarsest || fit == Fit::kFits || fit == Fit::kOutOfMemory) break;
         }
     }

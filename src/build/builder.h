@@ -33,6 +33,7 @@ struct ManylightsBuilder {
 
     manylights::detail::Array<std::uint32_t> validate_marks;
 
+    manylights::detail::Ignored ignored{};
     manylights::detail::Counts counts{};
     ManylightsStats stats{};
 };
@@ -49,13 +50,13 @@ enum class Fit { kFits, kOverBudget, kTooLarge, kOutOfMemory };
 bool within_budget(const ManylightsBuilder& builder);
 std::uint64_t visible_lights(const ManylightsBuilder& builder); // of all views
 
-// Sorting to node offsets: coarsens until the result fits, and fills counts and stats. The lights are culled already.
-Outcome arrange(ManylightsBuilder& builder);
+// Culls and sorts to node offsets: coarsens until the result fits, and fills counts and stats.
+Outcome arrange(ManylightsBuilder& builder, const ManylightsLights& lights);
 
-// Windows: the tile size to begin with, and the work at one tile size. kOverBudget also where tiles are chosen for the
-// caller and larger ones do better; has_to_do: no larger ones are left, only what no buffer can hold stops it.
-std::uint32_t first_tile_px(const ManylightsBuilder& builder);
-Fit arrange_windows(ManylightsBuilder& builder, bool has_to_do);
+// Windows: the tile size to begin with, after a sample was taken, and the work at one tile size. has_to_do: no larger
+// ones are left, only what no buffer can hold stops it.
+std::uint32_t first_tile_px(ManylightsBuilder& builder);
+Fit arrange_windows(ManylightsBuilder& builder, const ManylightsLights& lights, bool has_to_do);
 
 // Windows: headers, entries and references of these tiles, a part of write. Each task has scratch of its own.
 void write_window_tiles(ManylightsBuilder& builder, std::uint32_t task, std::uint64_t begin, std::uint64_t end,

@@ -3,6 +3,7 @@
 #include "src/build/bounds.h"
 #include "src/build/narrow.h"
 #include "src/build/tasks.h"
+#include "src/format/layout.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,17 +38,19 @@ bool is_between_planes(const Camera& camera, double depth, double radius) {
     return depth + radius >= camera.near_depth && depth - radius <= camera.far_depth;
 }
 
-LightSpan span_of_block(const ManylightsLights& lights, std::uint64_t block) {
+} // namespace
+
+LightSpan whole_span(const ManylightsLights& lights) {
     const std::size_t stride = lights.sphere_stride != 0 ? lights.sphere_stride : sizeof(ManylightsSphere);
-    const auto first = static_cast<std::uint32_t>(block * kBlockLights);
-    return {static_cast<const char*>(lights.spheres) + first * stride, stride, first,
-            std::min(lights.count - first, kBlockLights)};
+    return {static_cast<const char*>(lights.spheres), stride, 0, lights.count};
 }
 
-// Whose lights are where among the visible ones.
-void copy_indices(View& view, std::uint64_t block, std::uint64_t begin) {
-    const LightBlock lights = view.lights.block(block);
-    if (lights.count != 0) std::memcpy(view.visible.data() + begin, lights.index, lights.count * sizeof(std::uint32_t));
+LightSpan block_span(const ManylightsLights& lights, std::uint64_t block) {
+    LightSpan span = whole_span(lights);
+    span.first = static_cast<std::uint32_t>(block * kBlockLights);
+    span.spheres += span.first * span.stride;
+    span.count = std::min(lights.count - span.first, kBlockLights);
+    return span;
 }
 
 bool list_visible(View& view) {
@@ -56,13 +59,14 @@ bool list_visible(View& view) {
     if (!view.visible.resize(view.lights.count)) return false;
     std::uint64_t begin = 0;
     for (std::uint64_t b = 0; b < view.lights.block_count(); ++b) {
-        copy_indices(view, b, begin);
-        begin += view.lights.counts[b];
+        const std::uint32_t count = view.lights.counts[b];
+        if (count == 0) continue;
+        std::memcpy(view.visible.data() + begin, view.lights.index.data() + b * kBlockRoom,
+                    count * sizeof(std::uint32_t));
+        begin += count;
     }
     return true;
 }
-
-} // namespace
 
 // Why the culling radius contains every point that the membership rule accepts, with u = 2^-24, c the light and p the
 // point relative to the camera:
@@ -147,39 +151,34 @@ bool find_in_view(const ViewCull& cull, const ManylightsSphere& light, FoundLigh
     return true;
 }
 
-CullResult cull_lights(const ManylightsLights& lights, const Settings& settings, View* views,
-                       std::uint32_t view_count) {
-    CullResult result{};
+bool cull_lights(const ManylightsLights& lights, const Settings& settings, View* views, std::uint32_t view_count,
+                 Ignored& ignored) {
     const std::uint64_t blocks = block_count_for(lights.count);
-    ViewCull culls[8];
+    ViewCull culls[kMaxViews];
     for (std::uint32_t v = 0; v < view_count; ++v) {
         culls[v] = make_view_cull(views[v].camera, lights.motion_margin);
-        if (!views[v].lights.resize(blocks)) return {0, 0, true};
+        if (!views[v].lights.resize(blocks)) return false;
     }
-    std::uint64_t ignored[1024] = {};
-    std::uint64_t first_ignored[1024] = {};
+    Ignored found[kMaxWorkers];
     const std::uint32_t tasks = task_count_for(settings, blocks, 1);
     run_tasks(settings, tasks, [&](std::uint32_t task) {
         const Part part = part_of(blocks, task, tasks);
+        found[task] = {0, 0};
         for (std::uint64_t b = part.begin; b < part.end; ++b) {
-            const LightSpan span = span_of_block(lights, b);
             Ignored bad{}; // the same for all views
             for (std::uint32_t v = 0; v < view_count; ++v) {
                 LightBlock block = views[v].lights.block(b);
-                bad = cull_block(culls[v], span, block);
+                bad = cull_block(culls[v], block_span(lights, b), block);
                 views[v].lights.counts[b] = block.count;
             }
-            if (ignored[task] == 0) first_ignored[task] = bad.first;
-            ignored[task] += bad.count;
+            found[task] = add_ignored(found[task], bad);
         }
     });
-    for (std::uint32_t task = 0; task < tasks; ++task) {
-        if (result.ignored_lights == 0) result.first_ignored = first_ignored[task];
-        result.ignored_lights += ignored[task];
-    }
+    ignored = {0, 0};
+    for (std::uint32_t task = 0; task < tasks; ++task) ignored = add_ignored(ignored, found[task]);
     for (std::uint32_t v = 0; v < view_count; ++v)
-        if (!list_visible(views[v])) result.out_of_memory = true;
-    return result;
+        if (!list_visible(views[v])) return false;
+    return true;
 }
 
 } // namespace manylights::detail

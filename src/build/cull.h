@@ -15,14 +15,20 @@ struct View {
     Array<std::uint32_t> visible; // their indices, for the caller
 };
 
-struct CullResult {
-    std::uint64_t ignored_lights;
-    std::uint64_t first_ignored;
-    bool out_of_memory;
+// Lights that are ignored: how many, and the first one's index (if any).
+struct Ignored {
+    std::uint64_t count, first;
 };
+inline Ignored add_ignored(const Ignored& earlier, const Ignored& later) {
+    return {earlier.count + later.count, earlier.count != 0 ? earlier.first : later.first};
+}
 
-// One pass over the lights serves all views.
-CullResult cull_lights(const ManylightsLights& lights, const Settings& settings, View* views, std::uint32_t view_count);
+// All lights, into the blocks of all views. False: out of memory.
+[[nodiscard]] bool cull_lights(const ManylightsLights& lights, const Settings& settings, View* views,
+                               std::uint32_t view_count, Ignored& ignored);
+
+// Makes the list of the visible lights out of the blocks' indices and counts. False: out of memory.
+[[nodiscard]] bool list_visible(View& view);
 
 // The radius that culling uses instead of the range. distance: of the light from the camera; world_extent: the largest
 // |world coordinate| of light and camera.
@@ -38,6 +44,9 @@ struct LightSpan {
     std::size_t stride;
     std::uint32_t first, count; // index of the first; at most kBlockLights
 };
+
+LightSpan whole_span(const ManylightsLights& lights); // of any length
+LightSpan block_span(const ManylightsLights& lights, std::uint64_t block);
 
 // What culling in floats needs to know of a view; all of it rounded to the side that keeps more.
 struct ViewCull {
@@ -64,11 +73,6 @@ struct FoundLight {
 bool find_bounds(const ViewCull& cull, FoundLight& found);
 // From the beginning. range in (0, kEverywhere].
 bool find_in_view(const ViewCull& cull, const ManylightsSphere& light, FoundLight& found);
-
-// Lights that are ignored: how many, and the first one's index (if any).
-struct Ignored {
-    std::uint64_t count, first;
-};
 
 // Culls some lights into a block, and sets its count.
 Ignored cull_block(const ViewCull& cull, const LightSpan& lights, LightBlock& block);

@@ -69,11 +69,11 @@ HWY_INLINE InView transform(const ViewCull& cull, const Spheres& s) {
                hn::Set(kF, cull.rotation[i][2]) * z;
     };
     const Floats distance = hn::Abs(x) + hn::Abs(y) + hn::Abs(z);
-    const Floats extent = hn::Max(hn::Max(hn::Abs(s.x), hn::Abs(s.y)),
-                                  hn::Max(hn::Abs(s.z), hn::Set(kF, cull.position_extent)));
+    const Floats extent =
+        hn::Max(hn::Max(hn::Abs(s.x), hn::Abs(s.y)), hn::Max(hn::Abs(s.z), hn::Set(kF, cull.position_extent)));
     const Floats reach = hn::Min(s.range, hn::Set(kF, kEverywhere)) + hn::Set(kF, cull.motion_margin);
-    const Floats rounding = hn::Set(kF, cull.slack) * (reach + distance) + hn::Set(kF, cull.world_slack) * extent +
-                            hn::Set(kF, 1e-20f);
+    const Floats rounding =
+        hn::Set(kF, cull.slack) * (reach + distance) + hn::Set(kF, cull.world_slack) * extent + hn::Set(kF, 1e-20f);
     return {row(0), row(1), row(2), reach + rounding, distance <= hn::Set(kF, 1e18f)};
 }
 
@@ -83,8 +83,8 @@ HWY_INLINE Mask is_outside(const ViewCull& cull, const InView& v) {
     Mask outside = hn::FirstN(kF, 0);
     for (int side = 0; side < 4; ++side) {
         const Floats offset = side < 2 ? v.x : v.y;
-        const Floats distance = hn::Set(kF, cull.side_offset[side]) * offset +
-                                hn::Set(kF, cull.side_depth[side]) * v.depth + slack;
+        const Floats distance =
+            hn::Set(kF, cull.side_offset[side]) * offset + hn::Set(kF, cull.side_depth[side]) * v.depth + slack;
         outside = hn::Or(outside, distance <= hn::Neg(v.radius));
     }
     return outside;
@@ -177,7 +177,8 @@ HWY_NOINLINE void find_special(const ViewCull& cull, const LightSpan& lights, st
     kept = hn::RebindMask(kF, hn::Load(kW, copies.kept) != hn::Zero(kW));
 }
 
-// The kept lanes, side by side; what is stored behind them counts for nothing. (Storing only the kept ones takes longer.)
+// The kept lanes, side by side; what is stored behind them counts for nothing. (Storing only the kept ones takes
+// longer.)
 template <class D, class V, class M>
 HWY_INLINE void store_kept(D d, V v, M kept, hn::TFromD<D>* to) {
     hn::StoreU(hn::Compress(v, kept), d, to);
@@ -216,8 +217,8 @@ Ignored cull_block(const ViewCull& cull, const LightSpan& lights, LightBlock& re
         add_ignored(lights, i, usable, ignored);
         const Mask present = hn::And(usable, spheres.range > hn::Zero(kF));
         const Floats front = v.depth - v.radius;
-        const Mask between = hn::And(v.depth + v.radius >= hn::Set(kF, cull.near_depth),
-                                     front <= hn::Set(kF, cull.far_depth));
+        const Mask between =
+            hn::And(v.depth + v.radius >= hn::Set(kF, cull.near_depth), front <= hn::Set(kF, cull.far_depth));
         const Mask maybe = hn::AndNot(is_outside(cull, v), between);
         const Mask candidates = hn::And(present, hn::Or(maybe, hn::Not(v.is_ordinary)));
         if (hn::AllFalse(kF, candidates)) continue;

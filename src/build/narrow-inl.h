@@ -50,12 +50,12 @@ HWY_INLINE WedgeCuts<V> uncut(const WedgeSpheres<V>& s) {
     return {s.depth - s.radius, s.depth + s.radius, Set(d, std::numeric_limits<float>::infinity()), Zero(d)};
 }
 
-// The depths of the spheres inside the half-space, h being the distance of the centre c from its plane (positive inside)
-// and n the plane's normal. The deepest point of a sphere is the pole c + r * e_depth, at a distance of h + r * n_depth.
-// If it is inside, it is the answer. If it is not, the deepest point of sphere and half-space is on the plane, so on
-// the disc that the plane cuts: its centre is c - h * n, its radius sqrt(r^2 - h^2), and along the disc the depth grows
-// by sqrt(1 - n_depth^2) = |n_offset| per unit at most. The nearest point mirrors that. Both forms meet where the pole
-// is on the plane, and smoothly, so the comparison's rounding does not matter.
+// The depths of the spheres inside the half-space, h being the distance of the centre c from its plane (positive
+// inside) and n the plane's normal. The deepest point of a sphere is the pole c + r * e_depth, at a distance of h + r *
+// n_depth. If it is inside, it is the answer. If it is not, the deepest point of sphere and half-space is on the plane,
+// so on the disc that the plane cuts: its centre is c - h * n, its radius sqrt(r^2 - h^2), and along the disc the depth
+// grows by sqrt(1 - n_depth^2) = |n_offset| per unit at most. The nearest point mirrors that. Both forms meet where the
+// pole is on the plane, and smoothly, so the comparison's rounding does not matter.
 //
 // r^2 - h^2 is taken as (r - h) * (r + h), which loses no digits. Where there is a disc, |h| < r: its depths are off by
 // 5u * r + 3u * (|depth| + r), less than finish_depths adds.
@@ -89,9 +89,9 @@ HWY_INLINE void cut_side(const WedgeSpheres<V>& s, V normal_offset, V normal_dep
 // tile where that is r^2 or more.
 //
 // h and k are of planes that were moved outwards already. Conservative: g is off by 5u, each of the terms by 12u of
-// h^2 + k^2 + r^2 with it, and what a wrong sign of a or b may change is the square of such a rounding; the last term is
-// 64u. It also decides against rejection where m and n are nearly parallel. Where a side was not cut, its distance is
-// +inf and the first comparison is false or meets NaN, which is false as well.
+// h^2 + k^2 + r^2 with it, and what a wrong sign of a or b may change is the square of such a rounding; the last term
+// is 64u. It also decides against rejection where m and n are nearly parallel. Where a side was not cut, its distance
+// is +inf and the first comparison is false or meets NaN, which is false as well.
 template <class V>
 HWY_INLINE auto misses_corner(const WedgeCuts<V>& column, const WedgeCuts<V>& row, V radius) {
     const hwy::HWY_NAMESPACE::DFromV<V> d;

@@ -22,6 +22,21 @@ inline Part part_of(std::uint64_t count, std::uint32_t task, std::uint32_t task_
     return {count * task / task_count, count * (task + 1) / task_count};
 }
 
+// The least i in [0, count] with before(i) >= target, where before ascends: cuts work into parts of equal size.
+template <typename Before>
+std::uint64_t first_with(std::uint64_t count, std::uint64_t target, const Before& before) {
+    std::uint64_t low = 0;
+    std::uint64_t high = count;
+    while (low < high) {
+        const std::uint64_t middle = (low + high) / 2;
+        if (before(middle) < target)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
 // Calls body(task) for each task.
 template <typename Body>
 void run_tasks(const Settings& settings, std::uint32_t count, const Body& body) {

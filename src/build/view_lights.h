@@ -26,11 +26,12 @@ struct LightBlock {
 struct ViewLights {
     Array<float> x, y, depth, radius;
     Array<std::uint32_t> index, pixels_x, pixels_y;
-    Array<std::uint32_t> counts;  // per block
-    std::uint64_t count = 0;      // of all blocks
+    Array<std::uint32_t> counts; // per block
+    std::uint64_t count = 0;     // of all blocks
 
     void use(const Allocator& allocator);
     [[nodiscard]] bool resize(std::uint64_t block_count);
+    [[nodiscard]] bool resize_indices(std::uint64_t block_count); // where nothing else is kept
     LightBlock block(std::uint64_t index_of_block);
     std::uint64_t block_count() const { return counts.size(); }
 };
@@ -40,19 +41,21 @@ inline void ViewLights::use(const Allocator& allocator) {
     for (Array<std::uint32_t>* array : {&index, &pixels_x, &pixels_y, &counts}) array->use(allocator);
 }
 
+inline bool ViewLights::resize_indices(std::uint64_t block_count) {
+    return index.resize(block_count * kBlockRoom) && counts.resize(block_count);
+}
+
 inline bool ViewLights::resize(std::uint64_t block_count) {
     const std::uint64_t room = block_count * kBlockRoom;
     for (Array<float>* array : {&x, &y, &depth, &radius})
         if (!array->resize(room)) return false;
-    for (Array<std::uint32_t>* array : {&index, &pixels_x, &pixels_y})
-        if (!array->resize(room)) return false;
-    return counts.resize(block_count);
+    return pixels_x.resize(room) && pixels_y.resize(room) && resize_indices(block_count);
 }
 
 inline LightBlock ViewLights::block(std::uint64_t index_of_block) {
     const std::uint64_t at = index_of_block * kBlockRoom;
-    return {x.data() + at,        y.data() + at,        depth.data() + at,   radius.data() + at, index.data() + at,
-            pixels_x.data() + at, pixels_y.data() + at, counts[index_of_block]};
+    return {x.data() + at,     y.data() + at,        depth.data() + at,    radius.data() + at,
+            index.data() + at, pixels_x.data() + at, pixels_y.data() + at, counts[index_of_block]};
 }
 
 } // namespace manylights::detail

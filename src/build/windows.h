@@ -3,13 +3,15 @@
 // the run of them that can reach it. See <manylights/format.h> for the layout. All decisions are made on integer depth
 // codes, by one function for producer and reader.
 //
-//   span     each light's tiles, by its pixels; how many of them each tile has at the most     windows_span.cpp
-//   narrow   each light's depths in each of its tiles: records, put into their tile's bucket   windows_narrow.cpp
-//   measure  each tile's classes and slices, so its exact size                                 windows_tile.cpp
-//   write    each tile's records in order, and the windows over them                           windows_write.cpp
+//   sample   some lights, for the scale of depths, the size of tiles and the room for records   windows_sample.cpp
+//   span     each light's tiles, by its pixels                                                  windows_span.cpp
+//   narrow   its depths in each of them: records, put into the tile's chunks                    windows_narrow.cpp
+//   measure  each tile's classes and slices, so its exact size                                  windows_tile.cpp
+//   write    each tile's records in order, and the windows over them                            windows_write.cpp
 //
-// Each light's and each tile's outcome is its own, and a bucket keeps the order of the lights' blocks and, within a
-// block, of the lights' spans. So it does not matter which task does what.
+// A block of lights is culled, spanned and narrowed while it is in the cache. Each light's and each tile's outcome is
+// its own, and a tile keeps the order of the lights' blocks and, within a block, of the lights' spans. So it does not
+// matter which task does what.
 
 #include "src/build/bin.h"
 #include "src/build/cull.h"
@@ -49,29 +51,16 @@ struct BlockSpans {
     std::uint32_t* ends;                   // of the groups in order
 };
 
-// The spans of a view's lights, in blocks as the lights.
-struct ViewSpans {
-    Array<std::uint32_t> first_tile, last_tile, steps, order, ends;
-
-    void use(const Allocator& allocator);
-    [[nodiscard]] bool resize(std::uint64_t block_count);
-    BlockSpans block(std::uint64_t index_of_block);
-};
-
 // What spanning needs to know of a view.
 struct SpanView {
-    std::uint32_t tile_px, tiles_x;
+    std::uint32_t tile_px;
     std::uint32_t last_px_x, last_px_y;
 };
 
-// What spanning finds beside the spans.
-struct SpanCounts {
-    std::uint32_t* corners;       // (tiles_x + 1) * (tiles_y + 1): sums of them are the lights of a tile
-    std::uint32_t exponents[256]; // of the near ends; bin b holds [2^(b - 127), 2^(b - 126)), bin 0 also all less
-    std::uint64_t tiles;          // of all lights together
-};
+void span_block(const SpanView& view, const LightBlock& lights, const BlockSpans& spans);
 
-void span_block(const SpanView& view, const LightBlock& lights, const BlockSpans& spans, SpanCounts& counts);
+// How many tiles the lights of a block span, all together.
+std::uint64_t count_tiles(const SpanView& view, const LightBlock& lights);
 
 // The planes of a column or a row towards the one before and the one behind it.
 struct AxisPlanes {
@@ -87,17 +76,28 @@ struct NarrowView {
     std::uint32_t full_steps; // the last step of a tile
 };
 
-// Records on their way to their tiles' buckets, and room for the rows of one light.
+// The records of all tiles, as one task finds them. A tile has its own in a chain of chunks; chunk 0 is none's.
+constexpr std::uint32_t kChunkRecords = 16;
+struct RecordPool {
+    WindowRecord* records;
+    std::uint32_t* next;    // per chunk: the tile's next one
+    std::uint32_t* cursors; // per tile: behind its last record; 0: it has none
+    std::uint32_t* firsts;  // per tile: its first chunk
+    std::uint32_t* chunks;  // per tile: how many it has
+    std::uint32_t capacity; // in chunks
+    std::uint32_t used;     // also where that is more than there are: then the records are worth nothing
+};
+
+// Records on their way to their tiles, and room for the rows of one light.
 struct RecordBuffer {
     std::uint32_t *tile, *light, *near_bits, *far_bits; // kBufferedRecords, and two vectors
     float *row_low, *row_high, *row_distance, *row_normal;
-    std::uint32_t* cursors; // per tile, the end of its bucket so far
-    WindowRecord* records;
 };
 constexpr std::uint32_t kBufferedRecords = 512;
 
-void narrow_block(const NarrowView& view, const LightBlock& lights, const BlockSpans& spans,
-                  const RecordBuffer& buffer);
+// Returns the number of records.
+std::uint64_t narrow_block(const NarrowView& view, const LightBlock& lights, const BlockSpans& spans,
+                           const RecordBuffer& buffer, RecordPool& pool);
 
 struct WindowTile {
     std::uint32_t first_reference;
@@ -118,31 +118,52 @@ struct WindowReference {
     MlUint light, bounds;
 };
 
+// Some of a tile's records. A vector may be read where the last one begins.
+struct RecordRun {
+    const WindowRecord* records;
+    std::uint32_t count;
+};
+
 // Scratch for the records of one tile.
 struct TileScratch {
-    WindowRecord* records; // where they are in several buckets
+    RecordRun* runs;
     std::uint32_t* extents;
+    std::uint32_t* lights;
     std::uint32_t* slices; // of the near end, with the class; of the far end << 16
     std::uint32_t* bounds;
     WindowReference* ordered;
 };
-constexpr std::size_t kScratchWords = 3 + 1 + 1 + 1 + 2; // per record
+
+// What one task needs.
+struct WindowTask {
+    RecordPool pool;
+    std::uint64_t records;
+    Ignored ignored;
+};
+
+// What the sampled lights of a view say about all of them.
+struct WindowSample {
+    std::uint64_t visible; // estimated
+    double weight;         // lights per sampled one
+};
 
 struct Windows {
     WindowView views[kMaxViews];
-    ViewSpans spans[kMaxViews];
-    Array<std::uint32_t> corners;   // per task: see SpanCounts
-    Array<std::uint32_t> exponents; // per task and view, likewise
-    Array<float> planes;            // of the views' columns and rows
-    Array<std::uint32_t> begins;    // per tile and task: where its bucket begins
-    Array<std::uint32_t> cursors;   // per task and tile: where it ends
-    Array<WindowRecord> records;    // buckets: per tile and task
-    Array<std::uint32_t> buffers;   // per task
-    Array<float> rows;              // per task
-    Array<std::uint32_t> scratch;   // per task
+    WindowSample samples[kMaxViews];
+    Array<float> sample_floats;        // per view: a block
+    Array<std::uint32_t> sample_words; // likewise
+    Array<float> planes;               // of the views' columns and rows
+    Array<WindowTask> tasks;           // that work on lights
+    Array<WindowRecord> records;       // per task
+    Array<std::uint32_t> next;         // per task, see RecordPool
+    Array<std::uint32_t> chains;       // per task and tile: cursors, firsts, chunks
+    Array<float> task_floats;          // per task: a block, and a buffer's rows
+    Array<std::uint32_t> task_words;   // per task: a block, its spans, and a buffer
+    Array<RecordRun> runs;             // per task that works on tiles
+    Array<std::uint32_t> scratch;      // likewise
     Array<WindowTile> tiles;
-    std::uint32_t light_tasks = 1; // that fill the buckets
-    std::uint32_t tile_tasks = 1;  // that cut and write the tiles
+    std::uint64_t tile_count = 0;
+    std::uint32_t tile_tasks = 1; // that cut and write the tiles
     std::uint32_t largest_tile = 0;
     std::uint64_t references = 0;
     std::uint64_t empty_tiles = 0, flat_tiles = 0;
@@ -151,17 +172,19 @@ struct Windows {
 };
 
 // Codes per unit of depth: a power of two that gives nearly all lights (all but one in 1,024) a near end below 2^18, so
-// that depths to 64 times as far have codes of their own. exponents: see SpanCounts.
+// that depths to 64 times as far have codes of their own. exponents: how many near ends have which; bin b holds those
+// in [2^(b - 127), 2^(b - 126)), bin 0 also all that are less.
 float choose_depth_scale(const std::uint32_t (&exponents)[256]);
 
-// A tile's records: those of its buckets, in order, in one place; and how many there are.
-const WindowRecord* tile_records(const Windows& windows, std::uint64_t tile, const TileScratch& scratch);
-std::uint32_t tile_record_count(const Windows& windows, std::uint64_t tile);
 TileScratch tile_scratch(Windows& windows, std::uint32_t task);
 
-// Chooses the classes and slices of a tile. All of the result but where it begins. count is at least 1; records may be
-// read up to a vector behind the last one.
-WindowTile measure_tile(const WindowRecord* records, std::uint32_t count, std::uint32_t* extents);
+// A tile's records, in order. Returns the number of runs.
+std::uint32_t list_runs(const Windows& windows, std::uint64_t tile, RecordRun* runs);
+std::uint32_t tile_record_count(const Windows& windows, std::uint64_t tile);
+
+// Chooses the classes and slices of a tile with count records. All of the result but where it begins. count is at least
+// 1; extents is scratch.
+WindowTile measure_tile(const RecordRun* runs, std::uint32_t run_count, std::uint32_t count, std::uint32_t* extents);
 
 constexpr std::uint32_t kFlatReferences = 8; // up to so many, a table costs more than it saves
 
@@ -171,10 +194,10 @@ struct Extents {
     std::uint32_t counts[26];  // of those below 2^bits
     std::uint32_t largest[26]; // of those
 };
-Extents measure_extents(const WindowRecord* records, std::uint32_t count, std::uint32_t* extents);
+Extents measure_extents(const RecordRun* runs, std::uint32_t run_count, std::uint32_t count, std::uint32_t* extents);
 
-// Of each record, in place: its class and slices, and the bounds that go to the reference.
-void describe_records(const WindowTile& tile, const WindowRecord* records, const TileScratch& scratch);
+// Of each record: its light, its class and slices, and the bounds that go to the reference.
+void describe_records(const WindowTile& tile, std::uint32_t run_count, const TileScratch& scratch);
 
 constexpr std::uint32_t kClassSlices = 256; // slices of the large class are numbered from here
 
@@ -185,8 +208,7 @@ struct TileWindows {
 };
 
 // Puts described records into their final order: scratch.ordered.
-void order_records(const WindowTile& tile, const WindowRecord* records, const TileScratch& scratch,
-                   TileWindows& windows);
+void order_records(const WindowTile& tile, const TileScratch& scratch, TileWindows& windows);
 
 // The slice of a depth code that is not below the tile's base.
 inline std::uint32_t slice_of_code(const WindowTile& tile, std::uint32_t code) {

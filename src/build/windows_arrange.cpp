@@ -1,20 +1,15 @@
-// Depth windows at one tile size: spans, records, cuts, and the exact counts of what write will replay.
-#include "src/build/builder.h"
+// Depth windows at one tile size: records, cuts, and the exact counts of what write will replay.
 #include "src/build/windows_plan.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace manylights::detail {
 
 namespace {
 
-// While a light spans more tiles than this on average, larger ones cost less than they save. Its pixels are a
-// rectangle: it has references in about 12 of 14 tiles.
-constexpr std::uint64_t kTilesPerLight = 14;
-constexpr std::uint64_t kVeryManyLights = 500000;
 // What spans more than this, compared with what may be, does not fit when it is narrowed either.
 constexpr std::uint64_t kNarrowsAway = 4;
+constexpr std::size_t kScratchWords = 1 + 1 + 1 + 1 + 2; // per record, see TileScratch
 
 // What the result may have of references at the most, to be of use at this tile size.
 std::uint64_t reference_limit(const ManylightsBuilder& builder, bool has_to_do) {
@@ -23,62 +18,75 @@ std::uint64_t reference_limit(const ManylightsBuilder& builder, bool has_to_do) 
     return std::min(limit, builder.settings.max_bytes / (builder.counts.reference_words * sizeof(MlUint)));
 }
 
-bool spans_fit(const ManylightsBuilder& builder, std::uint64_t spanned, bool has_to_do) {
-    if (has_to_do) return true;
-    if (builder.settings.tile_px == 0 && spanned > kTilesPerLight * visible_lights(builder)) return false;
-    return spanned <= UINT32_MAX && spanned / kNarrowsAway <= reference_limit(builder, has_to_do);
-}
-
-// What comes before this tile, to share the work on tiles evenly. The buckets may be a little larger than their
-// records.
+// What comes before this tile, to share the work on tiles evenly.
 std::uint64_t work_before(const Windows& windows, std::uint64_t tile) {
     constexpr std::uint64_t kWorkPerTile = 32; // records
-    return tile * kWorkPerTile + windows.begins[tile * windows.light_tasks];
+    return tile * kWorkPerTile + (tile < windows.tile_count ? windows.tiles[tile].first_reference : windows.references);
 }
 
-void measure_tiles(Windows& windows, std::uint64_t tile_count, std::uint32_t task) {
-    const TileScratch scratch = tile_scratch(windows, task);
-    const std::uint64_t work = work_before(windows, tile_count);
-    const Part part = part_of(work, task, windows.tile_tasks);
-    for (std::uint64_t t = first_with(tile_count, part.begin, [&](std::uint64_t i) { return work_before(windows, i); });
-         t < tile_count && work_before(windows, t) < part.end; ++t) {
+// Puts the tile's references behind those of the tile before.
+void place_references(Windows& windows) {
+    std::uint32_t first = 0;
+    windows.largest_tile = 0;
+    windows.empty_tiles = 0;
+    for (std::uint64_t t = 0; t < windows.tile_count; ++t) {
         const std::uint32_t count = tile_record_count(windows, t);
-        windows.tiles[t] =
-            count != 0 ? measure_tile(tile_records(windows, t, scratch), count, scratch.extents) : WindowTile{};
+        windows.tiles[t].first_reference = first;
+        windows.tiles[t].count = count;
+        windows.largest_tile = std::max(windows.largest_tile, count);
+        windows.empty_tiles += count == 0 ? 1 : 0;
+        first += count;
     }
 }
 
-bool measure_all(ManylightsBuilder& builder, std::uint64_t tile_count) {
+std::size_t record_room(const Windows& windows) { return windows.largest_tile + kLanePadding; }
+
+// Each light task may leave a chunk unfilled.
+std::size_t run_room(const Windows& windows) { return windows.largest_tile / kChunkRecords + windows.tasks.size(); }
+
+// No more tasks than the largest tile leaves work for: each has room for that one.
+bool prepare_tile_tasks(ManylightsBuilder& builder) {
+    constexpr std::uint64_t kWorkPerTask = 1024; // records, and headers
     Windows& windows = builder.windows;
-    if (!prepare_tile_tasks(builder, tile_count) || !windows.tiles.resize(tile_count)) return false;
-    run_tasks(builder.settings, windows.tile_tasks,
-              [&](std::uint32_t task) { measure_tiles(windows, tile_count, task); });
-    return true;
+    const std::uint64_t work = windows.references + kHeaderCells * windows.tile_count;
+    const std::uint64_t useful = windows.references / std::max(windows.largest_tile, 1u) + 1;
+    windows.tile_tasks = static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(task_count_for(builder.settings, work, kWorkPerTask), useful));
+    return windows.scratch.resize(kScratchWords * record_room(windows) * windows.tile_tasks) &&
+           windows.runs.resize(run_room(windows) * windows.tile_tasks);
 }
 
-// Puts the tile's references behind those of the tile before, and so its entries; returns the end of the entries.
-std::uint64_t place_tile(Windows& windows, std::uint64_t index, std::uint64_t cell) {
-    WindowTile& tile = windows.tiles[index];
-    tile.first_reference = static_cast<std::uint32_t>(windows.references);
-    tile.first_entry = static_cast<std::uint32_t>(cell);
-    windows.references += tile.count;
-    if (tile.count == 0) ++windows.empty_tiles;
-    if (tile.form.flat_count != 0) ++windows.flat_tiles;
-    return tile.count != 0 ? cell + ml_entry_cell_count(tile.form) : cell;
+void measure_tiles(Windows& windows, std::uint32_t task) {
+    const TileScratch scratch = tile_scratch(windows, task);
+    const auto before = [&](std::uint64_t tile) { return work_before(windows, tile); };
+    const Part part = part_of(before(windows.tile_count), task, windows.tile_tasks);
+    const std::uint64_t end = first_with(windows.tile_count, part.end, before);
+    for (std::uint64_t t = first_with(windows.tile_count, part.begin, before); t < end; ++t) {
+        WindowTile& tile = windows.tiles[t];
+        WindowTile cut{};
+        if (tile.count != 0)
+            cut = measure_tile(scratch.runs, list_runs(windows, t, scratch.runs), tile.count, scratch.extents);
+        cut.first_reference = tile.first_reference;
+        tile = cut;
+    }
 }
 
-// The cells of the views: of each its headers, then its entries. Offsets are only good where the ends of references and
-// cells are within 32 bits.
-std::uint64_t place_tiles(ManylightsBuilder& builder) {
+// The cells of the views: of each its headers, then its tiles' entries. Offsets are only good where the end is within
+// 32 bits.
+std::uint64_t place_entries(ManylightsBuilder& builder) {
     Windows& windows = builder.windows;
-    windows.references = windows.empty_tiles = windows.flat_tiles = 0;
+    windows.flat_tiles = 0;
     std::uint64_t cell = 0;
     for (std::uint32_t v = 0; v < builder.view_count; ++v) {
         const Grid& grid = builder.grids[v];
         windows.views[v].cell_offset = cell;
         cell += kHeaderCells * grid.cell_count;
-        for (std::uint64_t t = grid.cell_offset; t < grid.cell_offset + grid.cell_count; ++t)
-            cell = place_tile(windows, t, cell);
+        for (std::uint64_t t = grid.cell_offset; t < grid.cell_offset + grid.cell_count; ++t) {
+            WindowTile& tile = windows.tiles[t];
+            tile.first_entry = static_cast<std::uint32_t>(cell);
+            if (tile.form.flat_count != 0) ++windows.flat_tiles;
+            if (tile.count != 0) cell += ml_entry_cell_count(tile.form);
+        }
         windows.views[v].cell_count = cell - windows.views[v].cell_offset;
     }
     return cell;
@@ -86,27 +94,34 @@ std::uint64_t place_tiles(ManylightsBuilder& builder) {
 
 } // namespace
 
-std::uint32_t first_tile_px(const ManylightsBuilder& builder) {
-    if (builder.settings.tile_px != 0) return builder.settings.tile_px;
-    const bool very_many = std::any_of(builder.views, builder.views + builder.view_count,
-                                       [](const View& view) { return view.lights.count >= kVeryManyLights; });
-    return very_many ? 24 : 32;
+TileScratch tile_scratch(Windows& windows, std::uint32_t task) {
+    const std::size_t room = record_room(windows);
+    std::uint32_t* words = windows.scratch.data() + kScratchWords * room * task;
+    return {
+        windows.runs.data() + run_room(windows) * task,      words, words + room, words + 2 * room, words + 3 * room,
+        reinterpret_cast<WindowReference*>(words + 4 * room)};
 }
 
-Fit arrange_windows(ManylightsBuilder& builder, bool has_to_do) {
+Fit arrange_windows(ManylightsBuilder& builder, const ManylightsLights& lights, bool has_to_do) {
     Counts& counts = builder.counts;
-    const std::uint64_t tile_count = counts.cells;
+    Windows& windows = builder.windows;
+    windows.tile_count = counts.cells;
     counts.cells *= kHeaderCells;
     if (counts.cells > builder.most_elements) return Fit::kTooLarge;
     if (!has_to_do && !within_budget(builder)) return Fit::kOverBudget;
+    const std::uint64_t limit = reference_limit(builder, has_to_do);
+    const std::uint64_t estimate = estimate_tiles(builder, builder.grids[0].tile_px);
+    if (!has_to_do && estimate / kNarrowsAway > limit) return Fit::kOverBudget;
 
-    std::uint64_t spanned = 0;
-    if (!span_lights(builder, tile_count, spanned)) return Fit::kOutOfMemory;
-    if (!spans_fit(builder, spanned, has_to_do)) return Fit::kOverBudget;
-    if (!narrow_lights(builder, tile_count, spanned) || !measure_all(builder, tile_count)) return Fit::kOutOfMemory;
-    counts.cells = place_tiles(builder);
-    counts.references = builder.windows.references;
-    if (counts.references > reference_limit(builder, true)) return Fit::kTooLarge;
+    const Fit collected = collect_records(builder, lights, estimate, limit);
+    if (collected == Fit::kOverBudget && has_to_do) return Fit::kTooLarge;
+    if (collected != Fit::kFits) return collected;
+    if (!windows.tiles.resize(windows.tile_count)) return Fit::kOutOfMemory;
+    place_references(windows);
+    if (!prepare_tile_tasks(builder)) return Fit::kOutOfMemory;
+    run_tasks(builder.settings, windows.tile_tasks, [&](std::uint32_t task) { measure_tiles(windows, task); });
+    counts.cells = place_entries(builder);
+    counts.references = windows.references;
     if (counts.cells > builder.most_elements) return Fit::kTooLarge;
     return within_budget(builder) ? Fit::kFits : Fit::kOverBudget;
 }

@@ -3,6 +3,8 @@
 
 #include "src/build/lanes.h"
 
+#include <hwy/cache_control.h>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/build/windows_narrow.cpp"
 #include <hwy/foreach_target.h>
@@ -27,16 +29,39 @@ constexpr hn::ScalableTag<std::int32_t> kI;
 using Spheres = WedgeSpheres<Floats>;
 using Cuts = WedgeCuts<Floats>;
 
-// To the buckets: one store per record and tile. The records of a tile keep their order.
-HWY_NOINLINE void flush(const RecordBuffer from, std::uint32_t count) {
-    for (std::uint32_t i = 0; i < count; ++i)
-        from.records[from.cursors[from.tile[i]]++] = {from.light[i], from.near_bits[i], from.far_bits[i]};
+// Chunks are begun in order: one that will be soon is on its way to the cache.
+constexpr std::uint32_t kChunksAhead = 8;
+
+// Where the tile's next record goes: into a new chunk. Once there are no more, chunk 0 takes all.
+HWY_NOINLINE std::uint32_t open_chunk(RecordPool& pool, std::uint32_t tile, std::uint32_t cursor) {
+    const std::uint32_t chunk = pool.used < pool.capacity ? pool.used : 0;
+    ++pool.used;
+    const WindowRecord* const soon = pool.records + std::size_t{chunk + kChunksAhead} * kChunkRecords;
+    for (std::uint32_t i = 0; i < kChunkRecords; i += 64 / sizeof(WindowRecord)) hwy::Prefetch(soon + i);
+    if (cursor == 0)
+        pool.firsts[tile] = chunk;
+    else
+        pool.next[(cursor - 1) / kChunkRecords] = chunk;
+    ++pool.chunks[tile];
+    return chunk * kChunkRecords;
 }
 
-// Collects records, and flushes them when there are many. A copy in registers while a block lasts.
+// The records of a tile keep their order.
+HWY_NOINLINE void flush(const RecordBuffer from, std::uint32_t count, RecordPool& pool) {
+    std::uint32_t* const cursors = pool.cursors;
+    WindowRecord* const records = pool.records;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        std::uint32_t at = cursors[from.tile[i]];
+        if (at % kChunkRecords == 0) at = open_chunk(pool, from.tile[i], at);
+        cursors[from.tile[i]] = at + 1;
+        records[at] = {from.light[i], from.near_bits[i], from.far_bits[i]};
+    }
+}
+
+// Collects records, and flushes them when there are many.
 class Emitter {
   public:
-    explicit Emitter(const RecordBuffer& buffer) : buffer_(buffer) {}
+    Emitter(const RecordBuffer& buffer, RecordPool& pool) : buffer_(buffer), pool_(pool) {}
     HWY_INLINE const RecordBuffer& buffer() const { return buffer_; }
 
     // What is stored behind the kept ones counts for nothing.
@@ -49,14 +74,18 @@ class Emitter {
         count_ += static_cast<std::uint32_t>(hn::CountTrue(kF, kept));
         if (count_ >= kBufferedRecords) finish();
     }
-    HWY_INLINE void finish() {
-        flush(buffer_, count_);
+    HWY_INLINE std::uint64_t finish() {
+        flush(buffer_, count_, pool_);
+        records_ += count_;
         count_ = 0;
+        return records_;
     }
 
   private:
     const RecordBuffer buffer_;
+    RecordPool& pool_;
     std::uint32_t count_ = 0;
+    std::uint64_t records_ = 0;
 };
 
 // ml_depth_code.
@@ -135,8 +164,8 @@ HWY_INLINE GroupLights load_lights(const NarrowView& view, const LightBlock& lig
     const Words column = hn::And(first, hn::Set(kW, 0xFFFF));
     const Words row = hn::ShiftRight<16>(first);
     const Words tile = hn::Set(kW, view.first_tile) + row * hn::Set(kW, view.tiles_x) + column;
-    return {{x, depth, radius, slack}, {y, depth, radius, slack}, column, row, tile, gather(lights.index, at),
-            gather(spans.steps, at),   present};
+    return {{x, depth, radius, slack}, {y, depth, radius, slack}, column, row, tile,
+            gather(lights.index, at),  gather(spans.steps, at),   present};
 }
 
 // As many lights take each step together whatever a vector holds: a tile's order depends on it.
@@ -236,20 +265,18 @@ void narrow_large(const NarrowView& view, const LargeLight& light, Emitter& emit
         const Words column = hn::Iota(kW, x);
         const Mask present = hn::FirstN(kF, light.last_x - x + 1);
         const Cuts columns = light.narrows ? cut_tiles(light.along_x, view.columns, x) : uncut(light.along_x);
-        const Words steps_x =
-            hn::Or(hn::IfThenElseZero(column == first_x, begin_step),
-                   hn::IfThenElse(column == last_x, end_step, hn::Set(kW, view.full_steps << 4)));
+        const Words steps_x = hn::Or(hn::IfThenElseZero(column == first_x, begin_step),
+                                     hn::IfThenElse(column == last_x, end_step, hn::Set(kW, view.full_steps << 4)));
         for (std::uint32_t y = light.first_y; y <= light.last_y; ++y) {
             const std::uint32_t r = y - light.first_y;
             const Cuts row = {hn::Set(kF, buffer.row_low[r]), hn::Set(kF, buffer.row_high[r]),
                               hn::Set(kF, buffer.row_distance[r]), hn::Set(kF, buffer.row_normal[r])};
             const std::uint32_t first_step = y == light.first_y ? (light.steps >> 8) & 15 : 0;
             const std::uint32_t last_step = y == light.last_y ? (light.steps >> 8) & 240 : view.full_steps << 4;
-            const Records records = {column + hn::Set(kW, view.first_tile + y * view.tiles_x),
-                                     hn::Set(kW, light.light), steps_x, hn::Set(kW, first_step | last_step)};
-            const Mask kept = light.narrows
-                                  ? hn::AndNot(misses_corner(columns, row, light.along_x.radius), present)
-                                  : present;
+            const Records records = {column + hn::Set(kW, view.first_tile + y * view.tiles_x), hn::Set(kW, light.light),
+                                     steps_x, hn::Set(kW, first_step | last_step)};
+            const Mask kept =
+                light.narrows ? hn::AndNot(misses_corner(columns, row, light.along_x.radius), present) : present;
             emit(view, records, columns, row, light.along_x.slack, kept, emitter);
         }
     }
@@ -257,9 +284,9 @@ void narrow_large(const NarrowView& view, const LargeLight& light, Emitter& emit
 
 } // namespace
 
-void narrow_block(const NarrowView& view, const LightBlock& lights, const BlockSpans& spans,
-                  const RecordBuffer& buffer) {
-    Emitter emitter(buffer);
+std::uint64_t narrow_block(const NarrowView& view, const LightBlock& lights, const BlockSpans& spans,
+                           const RecordBuffer& buffer, RecordPool& pool) {
+    Emitter emitter(buffer, pool);
     std::uint32_t begin = 0;
     for (std::uint32_t g = 0; g < kLargeSpan; ++g) {
         const std::uint32_t shape = g % kSpanShapes;
@@ -270,7 +297,7 @@ void narrow_block(const NarrowView& view, const LightBlock& lights, const BlockS
     }
     for (std::uint32_t i = begin; i < spans.ends[kLargeSpan]; ++i)
         narrow_large(view, load_light(lights, spans, spans.order[i]), emitter);
-    emitter.finish();
+    return emitter.finish();
 }
 
 } // namespace manylights::detail::HWY_NAMESPACE
@@ -281,9 +308,9 @@ namespace manylights::detail {
 
 HWY_EXPORT(narrow_block);
 
-void narrow_block(const NarrowView& view, const LightBlock& lights, const BlockSpans& spans,
-                  const RecordBuffer& buffer) {
-    HWY_DYNAMIC_DISPATCH(narrow_block)(view, lights, spans, buffer);
+std::uint64_t narrow_block(const NarrowView& view, const LightBlock& lights, const BlockSpans& spans,
+                           const RecordBuffer& buffer, RecordPool& pool) {
+    return HWY_DYNAMIC_DISPATCH(narrow_block)(view, lights, spans, buffer, pool);
 }
 
 } // namespace manylights::detail

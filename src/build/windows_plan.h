@@ -7,28 +7,17 @@
 
 namespace manylights::detail {
 
-// The least i in [0, count] with before(i) >= target; before ascends.
-template <typename Before>
-std::uint64_t first_with(std::uint64_t count, std::uint64_t target, const Before& before) {
-    std::uint64_t low = 0;
-    std::uint64_t high = count;
-    while (low < high) {
-        const std::uint64_t middle = (low + high) / 2;
-        if (before(middle) < target)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
+// False: out of memory, as below.
+[[nodiscard]] bool take_sample(ManylightsBuilder& builder, const ManylightsLights& lights);
 
-// Each light's tiles, and buckets for as many records per tile. spanned: all of them. False: out of memory, all three.
-[[nodiscard]] bool span_lights(ManylightsBuilder& builder, std::uint64_t tile_count, std::uint64_t& spanned);
+// About how many tiles of this size the lights' pixels span, all together.
+std::uint64_t estimate_tiles(ManylightsBuilder& builder, std::uint32_t tile_px);
 
-// The records, in the buckets. spanned fits 32 bits.
-[[nodiscard]] bool narrow_lights(ManylightsBuilder& builder, std::uint64_t tile_count, std::uint64_t spanned);
+// The planes of a view's columns and rows at its tile size.
+[[nodiscard]] bool make_narrow_views(ManylightsBuilder& builder, NarrowView (&views)[kMaxViews]);
 
-// Decides how many tasks work on tiles, and makes scratch for each.
-[[nodiscard]] bool prepare_tile_tasks(ManylightsBuilder& builder, std::uint64_t tile_count);
+// Culls all lights and records them in their tiles. kOverBudget: more records than limit, and not all of them are there.
+Fit collect_records(ManylightsBuilder& builder, const ManylightsLights& lights, std::uint64_t estimate,
+                    std::uint64_t limit);
 
 } // namespace manylights::detail

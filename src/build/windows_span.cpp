@@ -23,11 +23,9 @@ constexpr hn::ScalableTag<std::int32_t> kI;
 HWY_INLINE Floats to_float(Words v) { return hn::ConvertTo(kF, hn::BitCast(kI, v)); }
 HWY_INLINE Words to_word(Floats v) { return hn::BitCast(kW, hn::ConvertTo(kI, v)); }
 
-// v / tile_px for integers below 2^20, exactly: (v + 1/2) / tile_px is at least 1 / (2 tile_px) from an integer, and its
-// rounding is less than 2^-23 of v / tile_px.
-HWY_INLINE Words divide(Words v, Floats inverse) {
-    return to_word((to_float(v) + hn::Set(kF, 0.5f)) * inverse);
-}
+// v / tile_px for integers below 2^20, exactly: (v + 1/2) / tile_px is at least 1 / (2 tile_px) from an integer, and
+// its rounding is less than 2^-23 of v / tile_px.
+HWY_INLINE Words divide(Words v, Floats inverse) { return to_word((to_float(v) + hn::Set(kF, 0.5f)) * inverse); }
 
 struct AxisSpan {
     Words first_tile, last_tile, steps, is_clipped;
@@ -63,24 +61,6 @@ HWY_INLINE Words group_of(const AxisSpan& x, const AxisSpan& y, hn::Mask<hn::Sca
     return hn::IfThenElse(is_small, group, hn::Set(kW, kLargeSpan));
 }
 
-// The exponent of the near end; 0 for what is not positive.
-HWY_INLINE Words near_exponent(const LightBlock& lights, std::size_t i) {
-    const Floats near_end = hn::LoadU(kF, lights.depth + i) - hn::LoadU(kF, lights.radius + i);
-    return hn::ShiftRight<23>(hn::BitCast(kW, hn::Max(near_end, hn::Zero(kF))));
-}
-
-// A rectangle of tiles as four corners: the sums over rows and columns up to a tile give how many rectangles hold it.
-HWY_INLINE void add_corners(std::uint32_t* corners, std::uint32_t pitch, std::uint32_t first, std::uint32_t last) {
-    std::uint32_t* const top = corners + (first >> 16) * pitch;
-    std::uint32_t* const bottom = corners + ((last >> 16) + 1) * pitch;
-    const std::uint32_t left = first & 0xFFFF;
-    const std::uint32_t right = (last & 0xFFFF) + 1;
-    top[left] += 1;
-    top[right] -= 1;
-    bottom[left] -= 1;
-    bottom[right] += 1;
-}
-
 // Positions by group, ascending within each. Four parts of the block are counted and placed side by side: lights of one
 // group tend to follow each other, and one count would wait for the other.
 constexpr std::uint32_t kParts = 4;
@@ -109,30 +89,10 @@ HWY_INLINE void order_groups(const std::uint32_t* groups, std::uint32_t count, c
     for (std::uint32_t i = kParts * part; i < count; ++i) spans.order[counts.of[groups[i]][kParts - 1]++] = i;
 }
 
-// Likewise.
-HWY_INLINE void count_exponents(const std::uint32_t* exponents, std::uint32_t count, std::uint32_t* sums) {
-    std::uint32_t counts[256][kParts] = {};
-    for (std::uint32_t i = 0; i < count; ++i) ++counts[exponents[i]][i % kParts];
-    for (std::uint32_t b = 0; b < 256; ++b) sums[b] += counts[b][0] + counts[b][1] + counts[b][2] + counts[b][3];
-}
-
-HWY_INLINE void count_tiles(const SpanView& view, const BlockSpans& spans, std::uint32_t count, SpanCounts& counts) {
-    std::uint64_t tiles = 0;
-    std::uint32_t* const corners = counts.corners;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t first = spans.first_tile[i];
-        const std::uint32_t last = spans.last_tile[i];
-        add_corners(corners, view.tiles_x + 1, first, last);
-        tiles += std::uint64_t{(last & 0xFFFF) - (first & 0xFFFF) + 1} * ((last >> 16) - (first >> 16) + 1);
-    }
-    counts.tiles += tiles;
-}
-
 } // namespace
 
-void span_block(const SpanView& view, const LightBlock& lights, const BlockSpans& spans, SpanCounts& counts) {
+void span_block(const SpanView& view, const LightBlock& lights, const BlockSpans& spans) {
     std::uint32_t groups[kBlockRoom];
-    std::uint32_t exponents[kBlockRoom];
     for (std::size_t i = 0; i < lights.count; i += hn::Lanes(kW)) {
         const AxisSpan x = span_axis(hn::LoadU(kW, lights.pixels_x + i), view.tile_px, view.last_px_x);
         const AxisSpan y = span_axis(hn::LoadU(kW, lights.pixels_y + i), view.tile_px, view.last_px_y);
@@ -140,11 +100,22 @@ void span_block(const SpanView& view, const LightBlock& lights, const BlockSpans
         hn::StoreU(hn::Or(x.last_tile, hn::ShiftLeft<16>(y.last_tile)), kW, spans.last_tile + i);
         hn::StoreU(hn::Or(x.steps, hn::ShiftLeft<8>(y.steps)), kW, spans.steps + i);
         hn::StoreU(group_of(x, y, can_narrow(lights, i)), kW, groups + i);
-        hn::StoreU(near_exponent(lights, i), kW, exponents + i);
     }
     order_groups(groups, lights.count, spans);
-    count_exponents(exponents, lights.count, counts.exponents);
-    count_tiles(view, spans, lights.count, counts);
+}
+
+std::uint64_t count_tiles(const SpanView& view, const LightBlock& lights) {
+    std::uint64_t sum = 0;
+    HWY_ALIGN std::uint32_t tiles[hn::MaxLanes(kW)];
+    for (std::size_t i = 0; i < lights.count; i += hn::Lanes(kW)) {
+        const AxisSpan x = span_axis(hn::LoadU(kW, lights.pixels_x + i), view.tile_px, view.last_px_x);
+        const AxisSpan y = span_axis(hn::LoadU(kW, lights.pixels_y + i), view.tile_px, view.last_px_y);
+        const Words one = hn::Set(kW, 1);
+        const Words product = (x.last_tile - x.first_tile + one) * (y.last_tile - y.first_tile + one);
+        hn::Store(hn::IfThenElseZero(hn::FirstN(kW, lights.count - i), product), kW, tiles);
+        for (std::size_t k = 0; k < hn::Lanes(kW); ++k) sum += tiles[k];
+    }
+    return sum;
 }
 
 } // namespace manylights::detail::HWY_NAMESPACE
@@ -154,25 +125,14 @@ HWY_AFTER_NAMESPACE();
 namespace manylights::detail {
 
 HWY_EXPORT(span_block);
+HWY_EXPORT(count_tiles);
 
-void span_block(const SpanView& view, const LightBlock& lights, const BlockSpans& spans, SpanCounts& counts) {
-    HWY_DYNAMIC_DISPATCH(span_block)(view, lights, spans, counts);
+void span_block(const SpanView& view, const LightBlock& lights, const BlockSpans& spans) {
+    HWY_DYNAMIC_DISPATCH(span_block)(view, lights, spans);
 }
 
-void ViewSpans::use(const Allocator& allocator) {
-    for (Array<std::uint32_t>* array : {&first_tile, &last_tile, &steps, &order, &ends}) array->use(allocator);
-}
-
-bool ViewSpans::resize(std::uint64_t block_count) {
-    for (Array<std::uint32_t>* array : {&first_tile, &last_tile, &steps, &order})
-        if (!array->resize(block_count * kBlockRoom)) return false;
-    return ends.resize(block_count * kSpanGroups);
-}
-
-BlockSpans ViewSpans::block(std::uint64_t index_of_block) {
-    const std::uint64_t at = index_of_block * kBlockRoom;
-    return {first_tile.data() + at, last_tile.data() + at, steps.data() + at, order.data() + at,
-            ends.data() + index_of_block * kSpanGroups};
+std::uint64_t count_tiles(const SpanView& view, const LightBlock& lights) {
+    return HWY_DYNAMIC_DISPATCH(count_tiles)(view, lights);
 }
 
 } // namespace manylights::detail

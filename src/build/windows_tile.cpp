@@ -51,24 +51,29 @@ HWY_INLINE void count_below(const std::uint32_t* values, std::uint32_t count, st
 
 } // namespace
 
-Extents measure_extents(const WindowRecord* records, std::uint32_t count, std::uint32_t* values) {
+Extents measure_extents(const RecordRun* runs, std::uint32_t run_count, std::uint32_t count, std::uint32_t* values) {
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(kW));
     const Words nothing = hn::Set(kW, ~0u);
     Words base = nothing;
     Words last = hn::Zero(kW);
     Words least = nothing;
     Words most = hn::Zero(kW);
-    for (std::uint32_t i = 0; i < count; i += lanes) {
-        const RecordLanes r = load_records(records + i);
-        const auto present = hn::FirstN(kW, count - i);
-        const Words extent = r.far_code - r.near_code;
-        base = hn::Min(base, hn::IfThenElse(present, r.near_code, nothing));
-        last = hn::Max(last, hn::IfThenElseZero(present, r.far_code));
-        most = hn::Max(most, hn::IfThenElseZero(present, extent));
-        const Words or_nothing = hn::IfThenElse(present, extent, nothing);
-        least = hn::Min(least, or_nothing);
-        hn::StoreU(or_nothing, kW, values + i);
+    std::uint32_t* out = values;
+    for (std::uint32_t k = 0; k < run_count; ++k) {
+        const RecordRun run = runs[k];
+        for (std::uint32_t i = 0; i < run.count; i += lanes) {
+            const RecordLanes r = load_records(run.records + i);
+            const auto present = hn::FirstN(kW, run.count - i);
+            const Words extent = r.far_code - r.near_code;
+            base = hn::Min(base, hn::IfThenElse(present, r.near_code, nothing));
+            last = hn::Max(last, hn::IfThenElseZero(present, r.far_code));
+            most = hn::Max(most, hn::IfThenElseZero(present, extent));
+            least = hn::Min(least, hn::IfThenElse(present, extent, nothing));
+            hn::StoreU(extent, kW, out + i);
+        }
+        out += run.count;
     }
+    hn::StoreU(nothing, kW, out); // below no limit
     Extents extents = {hn::GetLane(hn::MinOfLanes(kW, base)), hn::GetLane(hn::MaxOfLanes(kW, last)), {}, {}};
     const std::uint32_t largest = hn::GetLane(hn::MaxOfLanes(kW, most));
     const auto first_bits = static_cast<std::uint32_t>(std::bit_width(hn::GetLane(hn::MinOfLanes(kW, least))));
@@ -82,27 +87,34 @@ Extents measure_extents(const WindowRecord* records, std::uint32_t count, std::u
     return extents;
 }
 
-void describe_records(const WindowTile& tile, const WindowRecord* records, const TileScratch& scratch) {
+void describe_records(const WindowTile& tile, std::uint32_t run_count, const TileScratch& scratch) {
     const Words base = hn::Set(kW, tile.base_code);
     const Words limit = hn::Set(kW, 1u << tile.small_bits);
     const Words slice_shift = hn::Set(kW, tile.form.slice_shift);
     const Words small_shift = hn::Set(kW, tile.form.small_shift);
     const Words large_shift = hn::Set(kW, tile.form.large_shift);
-    for (std::uint32_t i = 0; i < tile.count; i += static_cast<std::uint32_t>(hn::Lanes(kW))) {
-        const RecordLanes r = load_records(records + i);
-        const auto small = r.far_code - r.near_code < limit;
-        const Words near_slice = hn::Shr(r.near_code - base, slice_shift);
-        const Words far_slice = hn::Shr(r.far_code - base, slice_shift);
-        const Words of_class = hn::IfThenElseZero(hn::Not(small), hn::Set(kW, kClassSlices));
-        hn::StoreU(hn::Or(near_slice + of_class, hn::ShiftLeft<16>(far_slice + of_class)), kW, scratch.slices + i);
-        // ml_pack_bounds.
-        const Words shift = hn::IfThenElse(small, small_shift, large_shift);
-        const Words low = hn::Shr(r.near_code, shift);
-        const Words extent = hn::Shr(r.far_code, shift) - low;
-        const Words x = hn::ShiftLeft<16>(hn::ShiftRight<24>(r.near_bits));
-        const Words y = hn::And(r.far_bits, hn::Set(kW, 0xFF000000u));
-        const Words depth = hn::Or(hn::And(low, hn::Set(kW, 255)), hn::ShiftLeft<8>(extent));
-        hn::StoreU(hn::Or(hn::Or(depth, x), y), kW, scratch.bounds + i);
+    std::uint32_t at = 0;
+    for (std::uint32_t k = 0; k < run_count; ++k) {
+        const RecordRun run = scratch.runs[k];
+        for (std::uint32_t i = 0; i < run.count; i += static_cast<std::uint32_t>(hn::Lanes(kW))) {
+            const RecordLanes r = load_records(run.records + i);
+            const auto small = r.far_code - r.near_code < limit;
+            const Words near_slice = hn::Shr(r.near_code - base, slice_shift);
+            const Words far_slice = hn::Shr(r.far_code - base, slice_shift);
+            const Words of_class = hn::IfThenElseZero(hn::Not(small), hn::Set(kW, kClassSlices));
+            hn::StoreU(r.light, kW, scratch.lights + at + i);
+            hn::StoreU(hn::Or(near_slice + of_class, hn::ShiftLeft<16>(far_slice + of_class)), kW,
+                       scratch.slices + at + i);
+            // ml_pack_bounds.
+            const Words shift = hn::IfThenElse(small, small_shift, large_shift);
+            const Words low = hn::Shr(r.near_code, shift);
+            const Words extent = hn::Shr(r.far_code, shift) - low;
+            const Words x = hn::ShiftLeft<16>(hn::ShiftRight<24>(r.near_bits));
+            const Words y = hn::And(r.far_bits, hn::Set(kW, 0xFF000000u));
+            const Words depth = hn::Or(hn::And(low, hn::Set(kW, 255)), hn::ShiftLeft<8>(extent));
+            hn::StoreU(hn::Or(hn::Or(depth, x), y), kW, scratch.bounds + at + i);
+        }
+        at += run.count;
     }
 }
 
@@ -115,12 +127,12 @@ namespace manylights::detail {
 HWY_EXPORT(measure_extents);
 HWY_EXPORT(describe_records);
 
-Extents measure_extents(const WindowRecord* records, std::uint32_t count, std::uint32_t* values) {
-    return HWY_DYNAMIC_DISPATCH(measure_extents)(records, count, values);
+Extents measure_extents(const RecordRun* runs, std::uint32_t run_count, std::uint32_t count, std::uint32_t* values) {
+    return HWY_DYNAMIC_DISPATCH(measure_extents)(runs, run_count, count, values);
 }
 
-void describe_records(const WindowTile& tile, const WindowRecord* records, const TileScratch& scratch) {
-    HWY_DYNAMIC_DISPATCH(describe_records)(tile, records, scratch);
+void describe_records(const WindowTile& tile, std::uint32_t run_count, const TileScratch& scratch) {
+    HWY_DYNAMIC_DISPATCH(describe_records)(tile, run_count, scratch);
 }
 
 namespace {
@@ -219,8 +231,8 @@ MlTileForm choose_form(const Extents& extents, std::uint32_t count, Classes& cla
 
 } // namespace
 
-WindowTile measure_tile(const WindowRecord* records, std::uint32_t count, std::uint32_t* values) {
-    const Extents extents = measure_extents(records, count, values);
+WindowTile measure_tile(const RecordRun* runs, std::uint32_t run_count, std::uint32_t count, std::uint32_t* values) {
+    const Extents extents = measure_extents(runs, run_count, count, values);
     Classes classes{};
     WindowTile tile{};
     tile.base_code = extents.base_code;

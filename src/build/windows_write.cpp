@@ -6,12 +6,11 @@
 
 namespace manylights::detail {
 
-// A counting sort by class and slice of the near end. Within a slice the order stays: that of the buckets. The window
+// A counting sort by class and slice of the near end. Within a slice the order stays: that of the chunks. The window
 // of slice s ends behind the last one that begins in s or before, and begins with the first one of all that ends in s
 // or behind: what is before that one ends before s. Where nothing reaches s the window is empty: the next one to begin
 // ends behind s, so first is last.
-void order_records(const WindowTile& tile, const WindowRecord* records, const TileScratch& scratch,
-                   TileWindows& windows) {
+void order_records(const WindowTile& tile, const TileScratch& scratch, TileWindows& windows) {
     const std::uint32_t slices = tile.form.last_slice + 1;
     const std::uint32_t classes = tile.form.two_classes + 1;
     for (std::uint32_t c = 0; c < classes; ++c) std::fill_n(windows.end + c * kClassSlices, slices + 1, 0u);
@@ -29,7 +28,7 @@ void order_records(const WindowTile& tile, const WindowRecord* records, const Ti
         const std::uint32_t at = windows.end[scratch.slices[i] & 0xFFFF]++;
         std::uint32_t& first = windows.first[scratch.slices[i] >> 16];
         first = std::min(first, at);
-        scratch.ordered[at] = {records[i].light, scratch.bounds[i]};
+        scratch.ordered[at] = {scratch.lights[i], scratch.bounds[i]};
     }
     for (std::uint32_t c = 0; c < classes; ++c) {
         std::uint32_t* first = windows.first + c * kClassSlices;
@@ -81,10 +80,9 @@ void write_tile(const Windows& windows, std::uint64_t index, const TileScratch& 
                 MlUint* references) {
     const WindowTile& tile = windows.tiles[index];
     if (tile.count == 0) return;
-    const WindowRecord* records = tile_records(windows, index, scratch);
-    describe_records(tile, records, scratch);
+    describe_records(tile, list_runs(windows, index, scratch.runs), scratch);
     TileWindows tile_windows;
-    order_records(tile, records, scratch, tile_windows);
+    order_records(tile, scratch, tile_windows);
     write_entries(tile, tile_windows, cells);
     std::memcpy(references + 2 * std::size_t{tile.first_reference}, scratch.ordered,
                 tile.count * sizeof(WindowReference));

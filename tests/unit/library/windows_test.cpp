@@ -65,16 +65,23 @@ struct CutTile {
     TileWindows windows;
 };
 
+// In runs of awkward lengths.
 CutTile cut_tile(std::vector<WindowRecord> records) {
     const auto count = static_cast<std::uint32_t>(records.size());
-    records.resize(count + kLanePadding);
-    std::vector<std::uint32_t> words(3 * records.size());
+    const std::size_t room = count + kLanePadding;
+    records.resize(room);
+    std::vector<std::uint32_t> words(4 * room);
+    std::vector<RecordRun> runs;
+    for (std::uint32_t at = 0; at < count; at += runs.back().count)
+        runs.push_back({records.data() + at, std::min(1 + at % 21, count - at)});
     CutTile cut{{}, 0, std::vector<WindowReference>(count), {}};
-    const TileScratch scratch = {nullptr, words.data(), words.data() + records.size(),
-                                 words.data() + 2 * records.size(), cut.ordered.data()};
-    cut.tile = measure_tile(records.data(), count, scratch.extents);
-    describe_records(cut.tile, records.data(), scratch);
-    order_records(cut.tile, records.data(), scratch, cut.windows);
+    const TileScratch scratch = {
+        runs.data(),       words.data(), words.data() + room, words.data() + 2 * room, words.data() + 3 * room,
+        cut.ordered.data()};
+    const auto run_count = static_cast<std::uint32_t>(runs.size());
+    cut.tile = measure_tile(runs.data(), run_count, count, scratch.extents);
+    describe_records(cut.tile, run_count, scratch);
+    order_records(cut.tile, scratch, cut.windows);
     for (std::uint32_t i = 0; i < count; ++i) cut.small_count += records[i].extent() < 1u << cut.tile.small_bits;
     return cut;
 }
@@ -163,8 +170,9 @@ std::vector<FoundRecord> records_of(ManylightsBuilder& builder) {
     std::vector<FoundRecord> found;
     const TileScratch scratch = tile_scratch(builder.windows, 0);
     for (std::uint32_t t = 0; t < builder.windows.tiles.size(); ++t) {
-        const WindowRecord* records = tile_records(builder.windows, t, scratch);
-        for (std::uint32_t i = 0; i < builder.windows.tiles[t].count; ++i) found.push_back({records[i], t});
+        const std::uint32_t runs = list_runs(builder.windows, t, scratch.runs);
+        for (std::uint32_t k = 0; k < runs; ++k)
+            for (std::uint32_t i = 0; i < scratch.runs[k].count; ++i) found.push_back({scratch.runs[k].records[i], t});
     }
     return found;
 }
