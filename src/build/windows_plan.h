@@ -16,7 +16,8 @@ std::uint64_t estimate_tiles(ManylightsBuilder& builder, std::uint32_t tile_px);
 // The planes of a view's columns and rows at its tile size.
 [[nodiscard]] bool make_narrow_views(ManylightsBuilder& builder, NarrowView (&views)[kMaxViews]);
 
-// Culls all lights and records them in their tiles. kOverBudget: more records than limit, and not all of them are there.
+// Culls all lights and records them in their tiles. kOverBudget: more records than limit, and not all of them are
+// there.
 Fit collect_records(ManylightsBuilder& builder, const ManylightsLights& lights, std::uint64_t estimate,
                     std::uint64_t limit);
 

@@ -1,6 +1,6 @@
 // What a sample of the lights says about all of them: the scale of depths, the size of tiles, the room for records. All
-// of it is only a matter of speed and memory: what is saturated, too coarse or too small loses no light. So a sample will
-// do, evenly spread over the caller's lights; up to kSampleLights it is all of them.
+// of it is only a matter of speed and memory: what is saturated, too coarse or too small loses no light. So a sample
+// will do, evenly spread over the caller's lights; up to kSampleLights it is all of them.
 #include "src/build/windows_plan.h"
 
 #include <algorithm>
@@ -11,8 +11,8 @@ namespace manylights::detail {
 namespace {
 
 constexpr std::uint32_t kSampleLights = 2048;
-// While a light spans more tiles than this on average, larger ones cost less than they save. Its pixels are a rectangle:
-// it has references in about 12 of 14 tiles.
+// While a light spans more tiles than this on average, larger ones cost less than they save. Its pixels are a
+// rectangle: it has references in about 12 of 14 tiles.
 constexpr double kTilesPerLight = 14.0;
 constexpr std::uint64_t kVeryManyLights = 500000;
 
@@ -45,7 +45,7 @@ std::uint32_t chosen_tile_px(ManylightsBuilder& builder) {
         largest_side = std::max({largest_side, builder.grids[v].width, builder.grids[v].height});
     }
     std::uint32_t tile_px = very_many ? 24 : 32;
-    while (tile_px < largest_side && static_cast<double>(estimate_tiles(builder, tile_px)) > kTilesPerLight * visible)
+    while (tile_px<largest_side&& static_cast<double>(estimate_tiles(builder, tile_px))> kTilesPerLight * visible)
         tile_px *= 2;
     return tile_px;
 }
