@@ -1,5 +1,5 @@
-// Runs a builder's work on oneTBB: an adapter for ManylightsSettings.parallel_for. Needs oneTBB (target manylights::tbb);
-// the library itself does not.
+// Runs a builder's work on oneTBB: an adapter for ManylightsSettings.parallel_for. Needs oneTBB (target
+// manylights::tbb); the library itself does not.
 //
 //     ManylightsSettings settings = manylights::make_settings();
 //     manylights::use_tbb(settings);

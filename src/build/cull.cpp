@@ -2,8 +2,6 @@
 
 #include "src/build/bounds.h"
 #include "src/build/narrow.h"
-#include "src/build/tasks.h"
-#include "src/format/layout.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,10 +53,10 @@ LightSpan block_span(const ManylightsLights& lights, std::uint64_t block) {
 
 bool list_visible(View& view) {
     view.lights.count = 0;
-    for (std::uint64_t b = 0; b < view.lights.block_count(); ++b) view.lights.count += view.lights.counts[b];
+    for (std::uint64_t b = 0; b < view.lights.counts.size(); ++b) view.lights.count += view.lights.counts[b];
     if (!view.visible.resize(view.lights.count)) return false;
     std::uint64_t begin = 0;
-    for (std::uint64_t b = 0; b < view.lights.block_count(); ++b) {
+    for (std::uint64_t b = 0; b < view.lights.counts.size(); ++b) {
         const std::uint32_t count = view.lights.counts[b];
         if (count == 0) continue;
         std::memcpy(view.visible.data() + begin, view.lights.index.data() + b * kBlockRoom,
@@ -148,36 +146,6 @@ bool find_in_view(const ViewCull& cull, const ManylightsSphere& light, FoundLigh
     found.y = to_float(center[1]);
     found.depth = to_float(center[2]);
     found.radius = float_above(radius + 0x1p-22 * distance); // the centre was rounded
-    return true;
-}
-
-bool cull_lights(const ManylightsLights& lights, const Settings& settings, View* views, std::uint32_t view_count,
-                 Ignored& ignored) {
-    const std::uint64_t blocks = block_count_for(lights.count);
-    ViewCull culls[kMaxViews];
-    for (std::uint32_t v = 0; v < view_count; ++v) {
-        culls[v] = make_view_cull(views[v].camera, lights.motion_margin);
-        if (!views[v].lights.resize(blocks)) return false;
-    }
-    Ignored found[kMaxWorkers];
-    const std::uint32_t tasks = task_count_for(settings, blocks, 1);
-    run_tasks(settings, tasks, [&](std::uint32_t task) {
-        const Part part = part_of(blocks, task, tasks);
-        found[task] = {0, 0};
-        for (std::uint64_t b = part.begin; b < part.end; ++b) {
-            Ignored bad{}; // the same for all views
-            for (std::uint32_t v = 0; v < view_count; ++v) {
-                LightBlock block = views[v].lights.block(b);
-                bad = cull_block(culls[v], block_span(lights, b), block);
-                views[v].lights.counts[b] = block.count;
-            }
-            found[task] = add_ignored(found[task], bad);
-        }
-    });
-    ignored = {0, 0};
-    for (std::uint32_t task = 0; task < tasks; ++task) ignored = add_ignored(ignored, found[task]);
-    for (std::uint32_t v = 0; v < view_count; ++v)
-        if (!list_visible(views[v])) return false;
     return true;
 }
 

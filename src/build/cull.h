@@ -23,10 +23,6 @@ inline Ignored add_ignored(const Ignored& earlier, const Ignored& later) {
     return {earlier.count + later.count, earlier.count != 0 ? earlier.first : later.first};
 }
 
-// All lights, into the blocks of all views. False: out of memory.
-[[nodiscard]] bool cull_lights(const ManylightsLights& lights, const Settings& settings, View* views,
-                               std::uint32_t view_count, Ignored& ignored);
-
 // Makes the list of the visible lights out of the blocks' indices and counts. False: out of memory.
 [[nodiscard]] bool list_visible(View& view);
 

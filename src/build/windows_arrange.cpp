@@ -1,5 +1,5 @@
 // Depth windows at one tile size: records, cuts, and the exact counts of what write will replay.
-#include "src/build/windows_plan.h"
+#include "src/build/record_stages.h"
 
 #include <algorithm>
 
@@ -7,8 +7,6 @@ namespace manylights::detail {
 
 namespace {
 
-// What spans more than this, compared with what may be, does not fit when it is narrowed either.
-constexpr std::uint64_t kNarrowsAway = 4;
 constexpr std::size_t kScratchWords = 1 + 1 + 1 + 1 + 2; // per record, see TileScratch
 
 // What the result may have of references at the most, to be of use at this tile size.
@@ -19,18 +17,21 @@ std::uint64_t reference_limit(const ManylightsBuilder& builder, bool has_to_do) 
 }
 
 // What comes before this tile, to share the work on tiles evenly.
-std::uint64_t work_before(const Windows& windows, std::uint64_t tile) {
+std::uint64_t work_before(const ManylightsBuilder& builder, std::uint64_t tile) {
     constexpr std::uint64_t kWorkPerTile = 32; // records
-    return tile * kWorkPerTile + (tile < windows.tile_count ? windows.tiles[tile].first_reference : windows.references);
+    const TileRecords& records = builder.records;
+    return tile * kWorkPerTile +
+           (tile < records.tile_count ? builder.windows.tiles[tile].first_reference : records.count);
 }
 
 // Puts the tile's references behind those of the tile before.
-void place_references(Windows& windows) {
+void place_references(ManylightsBuilder& builder) {
+    Windows& windows = builder.windows;
     std::uint32_t first = 0;
     windows.largest_tile = 0;
     windows.empty_tiles = 0;
-    for (std::uint64_t t = 0; t < windows.tile_count; ++t) {
-        const std::uint32_t count = tile_record_count(windows, t);
+    for (std::uint64_t t = 0; t < builder.records.tile_count; ++t) {
+        const std::uint32_t count = tile_record_count(builder.records, t);
         windows.tiles[t].first_reference = first;
         windows.tiles[t].count = count;
         windows.largest_tile = std::max(windows.largest_tile, count);
@@ -41,31 +42,31 @@ void place_references(Windows& windows) {
 
 std::size_t record_room(const Windows& windows) { return windows.largest_tile + kLanePadding; }
 
-// Each light task may leave a chunk unfilled.
-std::size_t run_room(const Windows& windows) { return windows.largest_tile / kChunkRecords + windows.tasks.size(); }
-
 // No more tasks than the largest tile leaves work for: each has room for that one.
 bool prepare_tile_tasks(ManylightsBuilder& builder) {
     constexpr std::uint64_t kWorkPerTask = 1024; // records, and headers
     Windows& windows = builder.windows;
-    const std::uint64_t work = windows.references + kHeaderCells * windows.tile_count;
-    const std::uint64_t useful = windows.references / std::max(windows.largest_tile, 1u) + 1;
+    const TileRecords& records = builder.records;
+    const std::uint64_t work = records.count + kHeaderCells * records.tile_count;
+    const std::uint64_t useful = records.count / std::max(windows.largest_tile, 1u) + 1;
     windows.tile_tasks = static_cast<std::uint32_t>(
         std::min<std::uint64_t>(task_count_for(builder.settings, work, kWorkPerTask), useful));
     return windows.scratch.resize(kScratchWords * record_room(windows) * windows.tile_tasks) &&
-           windows.runs.resize(run_room(windows) * windows.tile_tasks);
+           windows.runs.resize(run_room(records, windows.largest_tile) * windows.tile_tasks);
 }
 
-void measure_tiles(Windows& windows, std::uint32_t task) {
-    const TileScratch scratch = tile_scratch(windows, task);
-    const auto before = [&](std::uint64_t tile) { return work_before(windows, tile); };
-    const Part part = part_of(before(windows.tile_count), task, windows.tile_tasks);
-    const std::uint64_t end = first_with(windows.tile_count, part.end, before);
-    for (std::uint64_t t = first_with(windows.tile_count, part.begin, before); t < end; ++t) {
+void measure_tiles(ManylightsBuilder& builder, std::uint32_t task) {
+    Windows& windows = builder.windows;
+    const std::uint64_t tile_count = builder.records.tile_count;
+    const TileScratch scratch = tile_scratch(builder, task);
+    const auto before = [&](std::uint64_t tile) { return work_before(builder, tile); };
+    const Part part = part_of(before(tile_count), task, windows.tile_tasks);
+    const std::uint64_t end = first_with(tile_count, part.end, before);
+    for (std::uint64_t t = first_with(tile_count, part.begin, before); t < end; ++t) {
         WindowTile& tile = windows.tiles[t];
         WindowTile cut{};
         if (tile.count != 0)
-            cut = measure_tile(scratch.runs, list_runs(windows, t, scratch.runs), tile.count, scratch.extents);
+            cut = measure_tile(scratch.runs, list_runs(builder.records, t, scratch.runs), tile.count, scratch.extents);
         cut.first_reference = tile.first_reference;
         tile = cut;
     }
@@ -80,8 +81,8 @@ std::uint64_t place_entries(ManylightsBuilder& builder) {
     for (std::uint32_t v = 0; v < builder.view_count; ++v) {
         const Grid& grid = builder.grids[v];
         windows.views[v].cell_offset = cell;
-        cell += kHeaderCells * grid.cell_count;
-        for (std::uint64_t t = grid.cell_offset; t < grid.cell_offset + grid.cell_count; ++t) {
+        cell += kHeaderCells * grid.tile_count;
+        for (std::uint64_t t = grid.tile_offset; t < grid.tile_offset + grid.tile_count; ++t) {
             WindowTile& tile = windows.tiles[t];
             tile.first_entry = static_cast<std::uint32_t>(cell);
             if (tile.form.flat_count != 0) ++windows.flat_tiles;
@@ -94,34 +95,35 @@ std::uint64_t place_entries(ManylightsBuilder& builder) {
 
 } // namespace
 
-TileScratch tile_scratch(Windows& windows, std::uint32_t task) {
+void Windows::use(const Allocator& allocator) {
+    runs.use(allocator);
+    scratch.use(allocator);
+    tiles.use(allocator);
+}
+
+TileScratch tile_scratch(ManylightsBuilder& builder, std::uint32_t task) {
+    Windows& windows = builder.windows;
     const std::size_t room = record_room(windows);
     std::uint32_t* words = windows.scratch.data() + kScratchWords * room * task;
-    return {
-        windows.runs.data() + run_room(windows) * task,      words, words + room, words + 2 * room, words + 3 * room,
-        reinterpret_cast<WindowReference*>(words + 4 * room)};
+    return {windows.runs.data() + run_room(builder.records, windows.largest_tile) * task,
+            words,
+            words + room,
+            words + 2 * room,
+            words + 3 * room,
+            reinterpret_cast<WindowReference*>(words + 4 * room)};
 }
 
 Fit arrange_windows(ManylightsBuilder& builder, const ManylightsLights& lights, bool has_to_do) {
     Counts& counts = builder.counts;
     Windows& windows = builder.windows;
-    windows.tile_count = counts.cells;
-    counts.cells *= kHeaderCells;
-    if (counts.cells > builder.most_elements) return Fit::kTooLarge;
-    if (!has_to_do && !within_budget(builder)) return Fit::kOverBudget;
     const std::uint64_t limit = reference_limit(builder, has_to_do);
-    const std::uint64_t estimate = estimate_tiles(builder, builder.grids[0].tile_px);
-    if (!has_to_do && estimate / kNarrowsAway > limit) return Fit::kOverBudget;
-
-    const Fit collected = collect_records(builder, lights, estimate, limit);
-    if (collected == Fit::kOverBudget && has_to_do) return Fit::kTooLarge;
-    if (collected != Fit::kFits) return collected;
-    if (!windows.tiles.resize(windows.tile_count)) return Fit::kOutOfMemory;
-    place_references(windows);
+    if (Fit fit = collect_records(builder, lights, limit, has_to_do); fit != Fit::kFits) return fit;
+    if (!windows.tiles.resize(builder.records.tile_count)) return Fit::kOutOfMemory;
+    place_references(builder);
     if (!prepare_tile_tasks(builder)) return Fit::kOutOfMemory;
-    run_tasks(builder.settings, windows.tile_tasks, [&](std::uint32_t task) { measure_tiles(windows, task); });
+    run_tasks(builder.settings, windows.tile_tasks, [&](std::uint32_t task) { measure_tiles(builder, task); });
     counts.cells = place_entries(builder);
-    counts.references = windows.references;
+    counts.references = builder.records.count;
     if (counts.cells > builder.most_elements) return Fit::kTooLarge;
     return within_budget(builder) ? Fit::kFits : Fit::kOverBudget;
 }

@@ -1,9 +1,7 @@
 // Records: each light's depths and rectangle in each of its tiles, a vector of lights or of tiles at a time.
-#include "src/build/windows.h"
+#include "src/build/tile_records.h"
 
 #include "src/build/lanes.h"
-
-#include <hwy/cache_control.h>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/build/windows_narrow.cpp"
@@ -12,81 +10,14 @@
 #include <hwy/highway.h>
 
 #include "src/build/narrow-inl.h"
+#include "src/build/record_emitter-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace manylights::detail::HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using Floats = hn::Vec<hn::ScalableTag<float>>;
-using Words = hn::Vec<hn::ScalableTag<std::uint32_t>>;
-using Ints = hn::Vec<hn::ScalableTag<std::int32_t>>;
-using Mask = hn::Mask<hn::ScalableTag<float>>;
-constexpr hn::ScalableTag<float> kF;
-constexpr hn::ScalableTag<std::uint32_t> kW;
-constexpr hn::ScalableTag<std::int32_t> kI;
-
 using Spheres = WedgeSpheres<Floats>;
 using Cuts = WedgeCuts<Floats>;
-
-// Chunks are begun in order: one that will be soon is on its way to the cache.
-constexpr std::uint32_t kChunksAhead = 8;
-
-// Where the tile's next record goes: into a new chunk. Once there are no more, chunk 0 takes all.
-HWY_NOINLINE std::uint32_t open_chunk(RecordPool& pool, std::uint32_t tile, std::uint32_t cursor) {
-    const std::uint32_t chunk = pool.used < pool.capacity ? pool.used : 0;
-    ++pool.used;
-    const WindowRecord* const soon = pool.records + std::size_t{chunk + kChunksAhead} * kChunkRecords;
-    for (std::uint32_t i = 0; i < kChunkRecords; i += 64 / sizeof(WindowRecord)) hwy::Prefetch(soon + i);
-    if (cursor == 0)
-        pool.firsts[tile] = chunk;
-    else
-        pool.next[(cursor - 1) / kChunkRecords] = chunk;
-    ++pool.chunks[tile];
-    return chunk * kChunkRecords;
-}
-
-// The records of a tile keep their order.
-HWY_NOINLINE void flush(const RecordBuffer from, std::uint32_t count, RecordPool& pool) {
-    std::uint32_t* const cursors = pool.cursors;
-    WindowRecord* const records = pool.records;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        std::uint32_t at = cursors[from.tile[i]];
-        if (at % kChunkRecords == 0) at = open_chunk(pool, from.tile[i], at);
-        cursors[from.tile[i]] = at + 1;
-        records[at] = {from.light[i], from.near_bits[i], from.far_bits[i]};
-    }
-}
-
-// Collects records, and flushes them when there are many.
-class Emitter {
-  public:
-    Emitter(const RecordBuffer& buffer, RecordPool& pool) : buffer_(buffer), pool_(pool) {}
-    HWY_INLINE const RecordBuffer& buffer() const { return buffer_; }
-
-    // What is stored behind the kept ones counts for nothing.
-    HWY_INLINE void add(Words tile, Words light, Words near_bits, Words far_bits, Mask kept) {
-        const auto kept_words = hn::RebindMask(kW, kept);
-        hn::StoreU(hn::Compress(tile, kept_words), kW, buffer_.tile + count_);
-        hn::StoreU(hn::Compress(light, kept_words), kW, buffer_.light + count_);
-        hn::StoreU(hn::Compress(near_bits, kept_words), kW, buffer_.near_bits + count_);
-        hn::StoreU(hn::Compress(far_bits, kept_words), kW, buffer_.far_bits + count_);
-        count_ += static_cast<std::uint32_t>(hn::CountTrue(kF, kept));
-        if (count_ >= kBufferedRecords) finish();
-    }
-    HWY_INLINE std::uint64_t finish() {
-        flush(buffer_, count_, pool_);
-        records_ += count_;
-        count_ = 0;
-        return records_;
-    }
-
-  private:
-    const RecordBuffer buffer_;
-    RecordPool& pool_;
-    std::uint32_t count_ = 0;
-    std::uint64_t records_ = 0;
-};
 
 // ml_depth_code.
 HWY_INLINE Words depth_code(Floats depth, float scale) {
@@ -138,11 +69,6 @@ HWY_INLINE Words steps_of(Words steps, std::uint32_t step, std::uint32_t count, 
     return hn::Or(first, last);
 }
 
-HWY_INLINE Floats gather(const float* from, Ints positions) { return hn::GatherIndex(kF, from, positions); }
-HWY_INLINE Words gather(const std::uint32_t* from, Ints positions) {
-    return hn::BitCast(kW, hn::GatherIndex(kI, reinterpret_cast<const std::int32_t*>(from), positions));
-}
-
 // A vector of a group's lights.
 struct GroupLights {
     Spheres along_x, along_y;
@@ -167,11 +93,6 @@ HWY_INLINE GroupLights load_lights(const NarrowView& view, const LightBlock& lig
     return {{x, depth, radius, slack}, {y, depth, radius, slack}, column, row, tile,
             gather(lights.index, at),  gather(spans.steps, at),   present};
 }
-
-// As many lights take each step together whatever a vector holds: a tile's order depends on it.
-constexpr std::uint32_t kTogether = 16;
-constexpr std::uint32_t kVectors = kTogether / static_cast<std::uint32_t>(hn::MaxLanes(kF));
-static_assert(kVectors * hn::MaxLanes(kF) == kTogether);
 
 HWY_INLINE void narrow_row(const NarrowView& view, const SpanGroup& group, const GroupLights (&lights)[kVectors],
                            const Cuts (&columns)[kSmallSpan][kVectors], std::uint32_t r, Emitter& emitter) {

@@ -1,6 +1,6 @@
 // The planes between the tiles of a view.
 #include "src/build/narrow.h"
-#include "src/build/windows_plan.h"
+#include "src/build/record_stages.h"
 
 #include <algorithm>
 #include <limits>
@@ -40,8 +40,8 @@ std::size_t plane_room(const Grid& grid) { return 4 * std::size_t{grid.tiles_x +
 bool make_narrow_views(ManylightsBuilder& builder, NarrowView (&views)[kMaxViews]) {
     std::size_t room = 0;
     for (std::uint32_t v = 0; v < builder.view_count; ++v) room += plane_room(builder.grids[v]);
-    if (!builder.windows.planes.resize(room)) return false;
-    float* at = builder.windows.planes.data();
+    if (!builder.records.planes.resize(room)) return false;
+    float* at = builder.records.planes.data();
     for (std::uint32_t v = 0; v < builder.view_count; ++v) {
         const Grid& grid = builder.grids[v];
         const Camera& camera = builder.views[v].camera;
@@ -53,7 +53,7 @@ bool make_narrow_views(ManylightsBuilder& builder, NarrowView (&views)[kMaxViews
         view.far_depth = widened_far(camera.far_depth);
         view.depth_scale = builder.windows.views[v].depth_scale;
         view.tiles_x = grid.tiles_x;
-        view.first_tile = static_cast<std::uint32_t>(grid.cell_offset);
+        view.first_tile = static_cast<std::uint32_t>(grid.tile_offset);
         view.full_steps = ml_tile_step(grid.tile_px - 1, grid.tile_px);
         at += plane_room(grid);
     }

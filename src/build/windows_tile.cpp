@@ -26,7 +26,7 @@ struct RecordLanes {
     Words light, near_bits, far_bits, near_code, far_code;
 };
 
-HWY_INLINE RecordLanes load_records(const WindowRecord* records) {
+HWY_INLINE RecordLanes load_records(const TileRecord* records) {
     RecordLanes r;
     hn::LoadInterleaved3(kW, reinterpret_cast<const std::uint32_t*>(records), r.light, r.near_bits, r.far_bits);
     r.near_code = hn::And(r.near_bits, hn::Set(kW, ML_DEPTH_CODE_MAX));

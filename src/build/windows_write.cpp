@@ -1,5 +1,5 @@
 // Replays the depth windows that plan decided: headers, entries and references.
-#include "src/build/builder.h"
+#include "src/build/record_stages.h"
 
 #include <algorithm>
 #include <cstring>
@@ -76,11 +76,11 @@ void write_entries(const WindowTile& tile, const TileWindows& windows, MlCell* c
     writer.finish();
 }
 
-void write_tile(const Windows& windows, std::uint64_t index, const TileScratch& scratch, MlCell* cells,
+void write_tile(const ManylightsBuilder& builder, std::uint64_t index, const TileScratch& scratch, MlCell* cells,
                 MlUint* references) {
-    const WindowTile& tile = windows.tiles[index];
+    const WindowTile& tile = builder.windows.tiles[index];
     if (tile.count == 0) return;
-    describe_records(tile, list_runs(windows, index, scratch.runs), scratch);
+    describe_records(tile, list_runs(builder.records, index, scratch.runs), scratch);
     TileWindows tile_windows;
     order_records(tile, scratch, tile_windows);
     write_entries(tile, tile_windows, cells);
@@ -91,7 +91,7 @@ void write_tile(const Windows& windows, std::uint64_t index, const TileScratch& 
 // Of the tiles [begin, end), all of one view: ascending, headers before entries.
 void write_headers(const Windows& windows, const Grid& grid, const WindowView& view, std::uint64_t begin,
                    std::uint64_t end, MlCell* cells) {
-    MlCell* out = cells + view.cell_offset + kHeaderCells * (begin - grid.cell_offset);
+    MlCell* out = cells + view.cell_offset + kHeaderCells * (begin - grid.tile_offset);
     for (std::uint64_t t = begin; t < end; ++t) {
         const WindowTile& tile = windows.tiles[t];
         *out++ = {tile.first_reference, tile.first_entry};
@@ -105,14 +105,14 @@ void write_window_tiles(ManylightsBuilder& builder, std::uint32_t task, std::uin
                         const ManylightsBuffers& buffers) {
     auto* cells = static_cast<MlCell*>(buffers.cells);
     auto* references = static_cast<MlUint*>(buffers.references);
-    const TileScratch scratch = tile_scratch(builder.windows, task);
+    const TileScratch scratch = tile_scratch(builder, task);
     for (std::uint32_t v = 0; v < builder.view_count; ++v) {
         const Grid& grid = builder.grids[v];
-        const std::uint64_t first = std::max(begin, grid.cell_offset);
-        const std::uint64_t last = std::min(end, grid.cell_offset + grid.cell_count);
+        const std::uint64_t first = std::max(begin, grid.tile_offset);
+        const std::uint64_t last = std::min(end, grid.tile_offset + grid.tile_count);
         if (first >= last) continue;
         write_headers(builder.windows, grid, builder.windows.views[v], first, last, cells);
-        for (std::uint64_t t = first; t < last; ++t) write_tile(builder.windows, t, scratch, cells, references);
+        for (std::uint64_t t = first; t < last; ++t) write_tile(builder, t, scratch, cells, references);
     }
 }
 

@@ -1,6 +1,6 @@
 // Depth windows on their own: the scale of depth codes, the cut of a tile, and which tile sizes are chosen.
 
-#include "src/build/builder.h"
+#include "src/build/record_stages.h"
 #include "tests/unit/library/frame.h"
 
 #include <gtest/gtest.h>
@@ -45,9 +45,9 @@ TEST(DepthScale, IsAPlainPowerOfTwoForEveryDepth) {
 }
 
 // Records whose extents have between low_bits and high_bits bits.
-std::vector<WindowRecord> random_records(Random& random, std::uint32_t count, std::uint32_t span, int low_bits,
-                                         int high_bits) {
-    std::vector<WindowRecord> records(count);
+std::vector<TileRecord> random_records(Random& random, std::uint32_t count, std::uint32_t span, int low_bits,
+                                       int high_bits) {
+    std::vector<TileRecord> records(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         const auto near_code = static_cast<std::uint32_t>(random.bits() % span);
         const auto bits = low_bits + static_cast<int>(random.bits() % static_cast<unsigned>(high_bits - low_bits + 1));
@@ -66,7 +66,7 @@ struct CutTile {
 };
 
 // In runs of awkward lengths.
-CutTile cut_tile(std::vector<WindowRecord> records) {
+CutTile cut_tile(std::vector<TileRecord> records) {
     const auto count = static_cast<std::uint32_t>(records.size());
     const std::size_t room = count + kLanePadding;
     records.resize(room);
@@ -87,7 +87,7 @@ CutTile cut_tile(std::vector<WindowRecord> records) {
 }
 
 // What the layout demands of a form, whatever the records are.
-void expect_sound(const CutTile& cut, const std::vector<WindowRecord>& records) {
+void expect_sound(const CutTile& cut, const std::vector<TileRecord>& records) {
     const WindowTile& tile = cut.tile;
     const auto count = static_cast<std::uint32_t>(records.size());
     EXPECT_NE(ml_pack_tile_form(tile.form), 0u);
@@ -99,7 +99,7 @@ void expect_sound(const CutTile& cut, const std::vector<WindowRecord>& records) 
     for (std::uint32_t i = 0; i < count; ++i) {
         ASSERT_FALSE(seen[cut.ordered[i].light]);
         seen[cut.ordered[i].light] = true;
-        const WindowRecord& record = records[cut.ordered[i].light];
+        const TileRecord& record = records[cut.ordered[i].light];
         ASSERT_GE(record.near_code(), tile.base_code);
         ASSERT_LE(slice_of_code(tile, record.far_code()), tile.form.last_slice);
         const bool has_one_before = i != 0 && i != cut.small_count;
@@ -162,15 +162,15 @@ TEST(CutTile, SplitsClassesAndSlicesWhereThatSavesChecks) {
 }
 
 struct FoundRecord {
-    WindowRecord record;
+    TileRecord record;
     std::uint32_t tile;
 };
 
 std::vector<FoundRecord> records_of(ManylightsBuilder& builder) {
     std::vector<FoundRecord> found;
-    const TileScratch scratch = tile_scratch(builder.windows, 0);
+    const TileScratch scratch = tile_scratch(builder, 0);
     for (std::uint32_t t = 0; t < builder.windows.tiles.size(); ++t) {
-        const std::uint32_t runs = list_runs(builder.windows, t, scratch.runs);
+        const std::uint32_t runs = list_runs(builder.records, t, scratch.runs);
         for (std::uint32_t k = 0; k < runs; ++k)
             for (std::uint32_t i = 0; i < scratch.runs[k].count; ++i) found.push_back({scratch.runs[k].records[i], t});
     }
@@ -190,7 +190,7 @@ TEST(Windows, HandOutEachReferenceFromItsFirstDepthCodeToItsLast) {
         ASSERT_GT(found.size(), 500u);
         std::uint64_t codes = 0;
         for (std::size_t i = 0; i < found.size(); ++i) {
-            const WindowRecord& record = found[i].record;
+            const TileRecord& record = found[i].record;
             const auto pixel = [&](std::uint32_t tile, std::uint32_t step, std::uint32_t size) {
                 const std::uint32_t px = tile * tile_px + (step * tile_px + ML_TILE_STEPS - 1) / ML_TILE_STEPS;
                 return static_cast<float>(std::min(px, size - 1)) + 0.5f;

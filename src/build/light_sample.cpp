@@ -1,7 +1,7 @@
 // What a sample of the lights says about all of them: the scale of depths, the size of tiles, the room for records. All
 // of it is only a matter of speed and memory: what is saturated, too coarse or too small loses no light. So a sample
 // will do, evenly spread over the caller's lights; up to kSampleLights it is all of them.
-#include "src/build/windows_plan.h"
+#include "src/build/record_stages.h"
 
 #include <algorithm>
 #include <bit>
@@ -18,9 +18,9 @@ constexpr std::uint64_t kVeryManyLights = 500000;
 
 static_assert(kSampleLights <= kBlockLights);
 
-LightBlock sample_block(Windows& windows, std::uint32_t view) {
-    float* const floats = windows.sample_floats.data() + 4 * kBlockRoom * std::size_t{view};
-    std::uint32_t* const words = windows.sample_words.data() + 4 * kBlockRoom * std::size_t{view};
+LightBlock sample_block(TileRecords& records, std::uint32_t view) {
+    float* const floats = records.sample_floats.data() + 4 * kBlockRoom * std::size_t{view};
+    std::uint32_t* const words = records.sample_words.data() + 4 * kBlockRoom * std::size_t{view};
     return {floats, floats + kBlockRoom, floats + 2 * kBlockRoom, floats + 3 * kBlockRoom,
             words,  words + kBlockRoom,  words + 2 * kBlockRoom,  words[3 * kBlockRoom]};
 }
@@ -39,7 +39,7 @@ std::uint32_t chosen_tile_px(ManylightsBuilder& builder) {
     double visible = 0.0;
     std::uint32_t largest_side = 0;
     for (std::uint32_t v = 0; v < builder.view_count; ++v) {
-        const WindowSample& sample = builder.windows.samples[v];
+        const LightSample& sample = builder.records.samples[v];
         very_many = very_many || sample.visible >= kVeryManyLights;
         visible += static_cast<double>(sample.visible);
         largest_side = std::max({largest_side, builder.grids[v].width, builder.grids[v].height});
@@ -64,19 +64,19 @@ float choose_depth_scale(const std::uint32_t (&exponents)[256]) {
 }
 
 bool take_sample(ManylightsBuilder& builder, const ManylightsLights& lights) {
-    Windows& windows = builder.windows;
+    TileRecords& records = builder.records;
     const std::size_t room = 4 * kBlockRoom * std::size_t{builder.view_count};
-    if (!windows.sample_floats.resize(room) || !windows.sample_words.resize(room)) return false;
+    if (!records.sample_floats.resize(room) || !records.sample_words.resize(room)) return false;
     const std::uint32_t step = std::max(divide_up(lights.count, kSampleLights), 1u);
     const LightSpan whole = whole_span(lights);
     const LightSpan span = {whole.spheres, whole.stride * step, 0, divide_up(lights.count, step)};
     for (std::uint32_t v = 0; v < builder.view_count; ++v) {
-        LightBlock block = sample_block(windows, v);
+        LightBlock block = sample_block(records, v);
         cull_block(make_view_cull(builder.views[v].camera, lights.motion_margin), span, block);
-        windows.sample_words[(4 * std::size_t{v} + 3) * kBlockRoom] = block.count;
-        windows.samples[v] = {span.count != 0 ? std::uint64_t{block.count} * lights.count / span.count : 0,
+        records.sample_words[(4 * std::size_t{v} + 3) * kBlockRoom] = block.count;
+        records.samples[v] = {span.count != 0 ? std::uint64_t{block.count} * lights.count / span.count : 0,
                               static_cast<double>(step)};
-        windows.views[v].depth_scale = scale_of(block);
+        if (has_windows(builder)) builder.windows.views[v].depth_scale = scale_of(block);
     }
     return true;
 }
@@ -85,8 +85,8 @@ std::uint64_t estimate_tiles(ManylightsBuilder& builder, std::uint32_t tile_px) 
     double sum = 0.0;
     for (std::uint32_t v = 0; v < builder.view_count; ++v) {
         const SpanView view = {tile_px, builder.grids[v].width - 1, builder.grids[v].height - 1};
-        sum += static_cast<double>(count_tiles(view, sample_block(builder.windows, v))) *
-               builder.windows.samples[v].weight;
+        sum += static_cast<double>(count_tiles(view, sample_block(builder.records, v))) *
+               builder.records.samples[v].weight;
     }
     return static_cast<std::uint64_t>(sum);
 }

@@ -1,10 +1,10 @@
 // Which tiles each light spans, a vector of lights at a time.
-#include "src/build/windows.h"
+#include "src/build/tile_records.h"
 
 #include "src/build/lanes.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "src/build/windows_span.cpp"
+#define HWY_TARGET_INCLUDE "src/build/tile_spans.cpp"
 #include <hwy/foreach_target.h>
 // foreach_target comes first.
 #include <hwy/highway.h>
