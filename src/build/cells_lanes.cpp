@@ -24,9 +24,7 @@ constexpr hn::ScalableTag<float> kF;
 constexpr hn::ScalableTag<std::uint32_t> kW;
 constexpr hn::ScalableTag<std::int32_t> kI;
 
-HWY_INLINE Mask reaches(Floats low, Floats high, Floats begin, Floats end) {
-    return hn::And(high >= begin, low < end);
-}
+HWY_INLINE Mask reaches(Floats low, Floats high, Floats begin, Floats end) { return hn::And(high >= begin, low < end); }
 
 // In order, so that each slice's sum is the same with every vector.
 HWY_INLINE void sum_some(const SliceLanes& slices, std::uint32_t s, const RecordRun* runs, std::uint32_t run_count,
@@ -38,6 +36,7 @@ HWY_INLINE void sum_some(const SliceLanes& slices, std::uint32_t s, const Record
     Words counts = hn::Zero(kW);
     Floats depths = hn::Zero(kF);
     for (std::uint32_t k = 0; k < run_count; ++k) {
+        prefetch_ahead(runs, run_count, k);
         for (std::uint32_t i = 0; i < runs[k].count; ++i) {
             const Floats low = hn::Set(kF, std::bit_cast<float>(runs[k].records[i].near_bits));
             const Floats high = hn::Set(kF, std::bit_cast<float>(runs[k].records[i].far_bits));
@@ -60,9 +59,7 @@ HWY_INLINE Floats middle_of(Floats low, Floats high) {
 // One or two per light: more take longer to sum than they save in tests. Their counts stay in the first cache.
 constexpr std::uint32_t kLeastBins = 16, kMostBins = 4096;
 
-std::uint32_t bin_count(std::uint32_t lights) {
-    return HWY_MAX(std::bit_ceil(HWY_MIN(lights, kMostBins)), kLeastBins);
-}
+std::uint32_t bin_count(std::uint32_t lights) { return HWY_MAX(std::bit_ceil(HWY_MIN(lights, kMostBins)), kLeastBins); }
 
 // Unpacks the records; the range of their middles.
 struct Range {
@@ -75,6 +72,7 @@ HWY_INLINE Range unpack(std::uint32_t run_count, const CellScratch& scratch) {
     std::uint32_t at = 0;
     for (std::uint32_t k = 0; k < run_count; ++k) {
         const RecordRun run = scratch.runs[k];
+        prefetch_ahead(scratch.runs, run_count, k);
         for (std::uint32_t i = 0; i < run.count; i += static_cast<std::uint32_t>(hn::Lanes(kF))) {
             Words light, low_bits, high_bits;
             hn::LoadInterleaved3(kW, reinterpret_cast<const std::uint32_t*>(run.records + i), light, low_bits,
@@ -117,9 +115,13 @@ void sum_slices(const SliceLanes& slices, const RecordRun* runs, std::uint32_t r
 void sort_records(std::uint32_t run_count, std::uint32_t count, const CellScratch& scratch) {
     const std::uint32_t bins = bin_count(count);
     find_keys(count, bins, unpack(run_count, scratch), scratch);
+    // Copies, so that no store may be taken for one to them.
+    const std::uint32_t* const keys = scratch.keys;
+    const DepthArrays found = scratch.found;
+    const DepthArrays sorted = scratch.sorted;
     std::uint32_t next[kMostBins];
     std::memset(next, 0, bins * sizeof(std::uint32_t));
-    for (std::uint32_t i = 0; i < count; ++i) ++next[scratch.keys[i]];
+    for (std::uint32_t i = 0; i < count; ++i) ++next[keys[i]];
     std::uint32_t sum = 0;
     for (std::uint32_t b = 0; b < bins; ++b) {
         const std::uint32_t here = next[b];
@@ -127,10 +129,10 @@ void sort_records(std::uint32_t run_count, std::uint32_t count, const CellScratc
         sum += here;
     }
     for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t at = next[scratch.keys[i]]++;
-        scratch.sorted.light[at] = scratch.found.light[i];
-        scratch.sorted.low[at] = scratch.found.low[i];
-        scratch.sorted.high[at] = scratch.found.high[i];
+        const std::uint32_t at = next[keys[i]]++;
+        sorted.light[at] = found.light[i];
+        sorted.low[at] = found.low[i];
+        sorted.high[at] = found.high[i];
     }
 }
 
@@ -141,8 +143,8 @@ void find_ranges(const SliceLanes& slices, const DepthArrays& sorted, std::uint3
         Words first = hn::Set(kW, count);
         Words behind = hn::Zero(kW);
         for (std::uint32_t i = 0; i < count; ++i) {
-            const auto here = hn::RebindMask(
-                kW, reaches(hn::Set(kF, sorted.low[i]), hn::Set(kF, sorted.high[i]), begin, end));
+            const auto here =
+                hn::RebindMask(kW, reaches(hn::Set(kF, sorted.low[i]), hn::Set(kF, sorted.high[i]), begin, end));
             first = hn::IfThenElse(here, hn::Min(first, hn::Set(kW, i)), first);
             behind = hn::IfThenElse(here, hn::Set(kW, i + 1), behind);
         }

@@ -61,9 +61,9 @@ CellKind choose_kind(const Settings& settings, const SliceLanes& slices, std::ui
                      float depths) {
     if (count == 0 || settings.structure == MANYLIGHTS_STRUCTURE_LISTS) return {0, false};
     // A tree of as many lights as a leaf holds would be one leaf.
-    const bool is_tree = count > settings.leaf_size &&
-                         (settings.structure == MANYLIGHTS_STRUCTURE_TREES ||
-                          prefers_tree(count, depths, slices.near_depth[slice], slices.far_depth[slice]));
+    const bool is_tree =
+        count > settings.leaf_size && (settings.structure == MANYLIGHTS_STRUCTURE_TREES ||
+                                       prefers_tree(count, depths, slices.near_depth[slice], slices.far_depth[slice]));
     if (!is_tree) return {list_node_count(count), false};
     return {static_cast<std::uint32_t>(tree_node_count(count, settings.leaf_size)), true};
 }
@@ -126,8 +126,8 @@ void make_slices_of_views(ManylightsBuilder& builder) {
         float farthest = 0.0f;
         for (std::size_t task = 0; task < builder.records.tasks.size(); ++task)
             farthest = std::max(farthest, builder.records.tasks[task].farthest[v]);
-        builder.cells.slices[v] = make_slice_lanes(builder.slices, builder.views[v].camera.near_depth,
-                                                   builder.settings.slice_far, farthest);
+        builder.cells.slices[v] =
+            make_slice_lanes(builder.slices, builder.views[v].camera.near_depth, builder.settings.slice_far, farthest);
     }
 }
 

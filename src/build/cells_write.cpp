@@ -22,7 +22,7 @@ void write_cells(const ManylightsBuilder& builder, const Grid& grid, std::uint64
                                                                   : tile.node_count;
             const std::uint32_t first = lists ? tile.first_reference : tile.first_node;
             out[grid.cell_offset() + s * grid.tile_count + (t - grid.tile_offset)] = {first + cells.firsts[cell],
-                                                                                     behind - cells.firsts[cell]};
+                                                                                      behind - cells.firsts[cell]};
         }
     }
 }

@@ -53,8 +53,7 @@ void box_group(const BoxView& view, const LightBlock& lights, const BlockSpans& 
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(kF));
     for (std::uint32_t i = begin; i < end; i += kTogether) {
         BoxLights together[kVectors];
-        for (std::uint32_t v = 0; v < kVectors; ++v)
-            together[v] = load_lights(view, lights, spans, i + v * lanes, end);
+        for (std::uint32_t v = 0; v < kVectors; ++v) together[v] = load_lights(view, lights, spans, i + v * lanes, end);
         for (std::uint32_t r = 0; r <= shape / kSmallSpan; ++r) {
             for (std::uint32_t c = 0; c <= shape % kSmallSpan; ++c) {
                 const Words step = hn::Set(kW, r * view.tiles_x + c);

@@ -1,8 +1,6 @@
 // Lights to records: each task culls, spans and narrows its blocks of lights, and keeps the records in chunks per tile.
 #include "src/build/record_stages.h"
 
-#include <hwy/cache_control.h>
-
 #include <algorithm>
 #include <cstring>
 
@@ -206,10 +204,7 @@ std::uint32_t list_runs(const TileRecords& records, std::uint64_t tile, RecordRu
         std::uint32_t chunk = pool.firsts[tile];
         for (std::uint32_t c = 1; c <= chunks; ++c) {
             const std::uint32_t filled = c < chunks ? kChunkRecords : (pool.cursors[tile] - 1) % kChunkRecords + 1;
-            const TileRecord* at = pool.records + std::size_t{chunk} * kChunkRecords;
-            runs[count++] = {at, filled};
-            // Chunks of a tile lie anywhere: without this their lines are waited for one after the other.
-            for (std::uint32_t i = 0; i < filled; i += 64 / sizeof(TileRecord)) hwy::Prefetch(at + i);
+            runs[count++] = {pool.records + std::size_t{chunk} * kChunkRecords, filled};
             chunk = pool.next[chunk];
         }
     }

@@ -6,15 +6,17 @@
 //   record   windows: its depths in each of them, narrowed                                      windows_narrow.cpp
 //            depth slices: its depths                                                           grid_records.cpp
 //
-// A block of lights goes through all of that while it is in the cache. Records are kept in chunks per tile. Each light's
-// outcome is its own, and a tile keeps the order of the lights' blocks and, within a block, of the lights' spans. So it
-// does not matter which task does what.
+// A block of lights goes through all of that while it is in the cache. Records are kept in chunks per tile. Each
+// light's outcome is its own, and a tile keeps the order of the lights' blocks and, within a block, of the lights'
+// spans. So it does not matter which task does what.
 
 #include "src/build/cull.h"
 #include "src/build/grid.h"
 #include "src/format/layout.h"
 
 #include <manylights/format.h>
+
+#include <hwy/cache_control.h>
 
 #include <cstdint>
 
@@ -72,7 +74,7 @@ struct NarrowView {
 };
 
 // The records of all tiles, as one task finds them. A tile has its own in a chain of chunks; chunk 0 is none's.
-constexpr std::uint32_t kChunkRecords = 16;
+constexpr std::uint32_t kChunkRecords = 32;
 struct RecordPool {
     TileRecord* records;
     std::uint32_t* next;    // per chunk: the tile's next one
@@ -108,6 +110,14 @@ struct RecordRun {
     const TileRecord* records;
     std::uint32_t count;
 };
+
+// The runs of a tile lie anywhere. Whoever reads them asks for some ahead, lest their lines be waited for in turn.
+constexpr std::uint32_t kRunsAhead = 6;
+inline void prefetch_ahead(const RecordRun* runs, std::uint32_t run_count, std::uint32_t k) {
+    if (k + kRunsAhead >= run_count) return;
+    const RecordRun& run = runs[k + kRunsAhead];
+    for (std::uint32_t i = 0; i < run.count; i += 64 / sizeof(TileRecord)) hwy::Prefetch(run.records + i);
+}
 
 // What one task needs.
 struct RecordTask {

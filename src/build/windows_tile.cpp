@@ -61,6 +61,7 @@ Extents measure_extents(const RecordRun* runs, std::uint32_t run_count, std::uin
     std::uint32_t* out = values;
     for (std::uint32_t k = 0; k < run_count; ++k) {
         const RecordRun run = runs[k];
+        prefetch_ahead(runs, run_count, k);
         for (std::uint32_t i = 0; i < run.count; i += lanes) {
             const RecordLanes r = load_records(run.records + i);
             const auto present = hn::FirstN(kW, run.count - i);
@@ -96,6 +97,7 @@ void describe_records(const WindowTile& tile, std::uint32_t run_count, const Til
     std::uint32_t at = 0;
     for (std::uint32_t k = 0; k < run_count; ++k) {
         const RecordRun run = scratch.runs[k];
+        prefetch_ahead(scratch.runs, run_count, k);
         for (std::uint32_t i = 0; i < run.count; i += static_cast<std::uint32_t>(hn::Lanes(kW))) {
             const RecordLanes r = load_records(run.records + i);
             const auto small = r.far_code - r.near_code < limit;

@@ -13,22 +13,28 @@ namespace manylights::detail {
 void order_records(const WindowTile& tile, const TileScratch& scratch, TileWindows& windows) {
     const std::uint32_t slices = tile.form.last_slice + 1;
     const std::uint32_t classes = tile.form.two_classes + 1;
+    // Copies, so that no store may be taken for one to them.
+    const std::uint32_t count = tile.count;
+    const std::uint32_t* const keys = scratch.slices;
+    const std::uint32_t* const lights = scratch.lights;
+    const std::uint32_t* const bounds = scratch.bounds;
+    WindowReference* const ordered = scratch.ordered;
     for (std::uint32_t c = 0; c < classes; ++c) std::fill_n(windows.end + c * kClassSlices, slices + 1, 0u);
-    for (std::uint32_t i = 0; i < tile.count; ++i) ++windows.end[scratch.slices[i] & 0xFFFF];
+    for (std::uint32_t i = 0; i < count; ++i) ++windows.end[keys[i] & 0xFFFF];
     std::uint32_t sum = 0;
     for (std::uint32_t c = 0; c < classes; ++c) {
         for (std::uint32_t k = c * kClassSlices; k < c * kClassSlices + slices; ++k) {
-            const std::uint32_t count = windows.end[k];
+            const std::uint32_t here = windows.end[k];
             windows.end[k] = sum;
-            sum += count;
+            sum += here;
         }
         std::fill_n(windows.first + c * kClassSlices, slices, sum);
     }
-    for (std::uint32_t i = 0; i < tile.count; ++i) {
-        const std::uint32_t at = windows.end[scratch.slices[i] & 0xFFFF]++;
-        std::uint32_t& first = windows.first[scratch.slices[i] >> 16];
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t at = windows.end[keys[i] & 0xFFFF]++;
+        std::uint32_t& first = windows.first[keys[i] >> 16];
         first = std::min(first, at);
-        scratch.ordered[at] = {scratch.lights[i], scratch.bounds[i]};
+        ordered[at] = {lights[i], bounds[i]};
     }
     for (std::uint32_t c = 0; c < classes; ++c) {
         std::uint32_t* first = windows.first + c * kClassSlices;
