@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 namespace manylights::detail {
 
@@ -23,6 +24,18 @@ LightBlock sample_block(TileRecords& records, std::uint32_t view) {
     std::uint32_t* const words = records.sample_words.data() + 4 * kBlockRoom * std::size_t{view};
     return {floats, floats + kBlockRoom, floats + 2 * kBlockRoom, floats + 3 * kBlockRoom,
             words,  words + kBlockRoom,  words + 2 * kBlockRoom,  words[3 * kBlockRoom]};
+}
+
+// One light of each step, at an uneven place in it: the caller's lights may have an order of their own.
+std::uint32_t copy_sample(const ManylightsLights& lights, std::uint32_t step, ManylightsSphere* to) {
+    const LightSpan whole = whole_span(lights);
+    std::uint32_t count = 0;
+    for (std::uint64_t begin = 0; begin < lights.count; begin += step) {
+        const std::uint64_t width = std::min<std::uint64_t>(step, lights.count - begin);
+        const std::uint64_t at = begin + (std::uint64_t{count * 0x9E3779B9u} * width >> 32);
+        std::memcpy(to + count++, whole.spheres + at * whole.stride, sizeof(ManylightsSphere));
+    }
+    return count;
 }
 
 float scale_of(const LightBlock& lights) {
@@ -66,10 +79,12 @@ float choose_depth_scale(const std::uint32_t (&exponents)[256]) {
 bool take_sample(ManylightsBuilder& builder, const ManylightsLights& lights) {
     TileRecords& records = builder.records;
     const std::size_t room = 4 * kBlockRoom * std::size_t{builder.view_count};
-    if (!records.sample_floats.resize(room) || !records.sample_words.resize(room)) return false;
+    if (!records.sample_floats.resize(room) || !records.sample_words.resize(room) ||
+        !records.sample_spheres.resize(kSampleLights))
+        return false;
     const std::uint32_t step = std::max(divide_up(lights.count, kSampleLights), 1u);
-    const LightSpan whole = whole_span(lights);
-    const LightSpan span = {whole.spheres, whole.stride * step, 0, divide_up(lights.count, step)};
+    const LightSpan span = {reinterpret_cast<const char*>(records.sample_spheres.data()), sizeof(ManylightsSphere), 0,
+                            copy_sample(lights, step, records.sample_spheres.data())};
     for (std::uint32_t v = 0; v < builder.view_count; ++v) {
         LightBlock block = sample_block(records, v);
         cull_block(make_view_cull(builder.views[v].camera, lights.motion_margin), span, block);

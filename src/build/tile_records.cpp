@@ -162,6 +162,7 @@ bool list_results(ManylightsBuilder& builder) {
 void TileRecords::use(const Allocator& allocator) {
     for (Array<float>* array : {&sample_floats, &planes, &task_floats}) array->use(allocator);
     for (Array<std::uint32_t>* array : {&sample_words, &next, &chains, &task_words}) array->use(allocator);
+    sample_spheres.use(allocator);
     tasks.use(allocator);
     records.use(allocator);
 }

@@ -135,6 +135,7 @@ struct LightSample {
 
 struct TileRecords {
     LightSample samples[kMaxViews];
+    Array<ManylightsSphere> sample_spheres;
     Array<float> sample_floats;        // per view: a block
     Array<std::uint32_t> sample_words; // likewise
     Array<float> planes;               // windows: of the views' columns and rows

@@ -81,6 +81,24 @@ TEST(Write, TwiceGivesTheSameBytes) {
     }
 }
 
+// The room for records is judged by a sample, which does not see that these few lights take nearly all of it.
+TEST(Records, TakeTheRoomThatTheyNeed) {
+    constexpr std::uint32_t kFew = 60;
+    for (const std::uint32_t structure : kStructures) {
+        ManylightsSettings settings = settings_of(structure);
+        settings.tile_px = 8;
+        for (std::uint32_t at = 0; at < 200000; at += 25000) {
+            std::vector<ManylightsSphere> spheres(200000, {{0.0f, 0.0f, 100.0f}, 1.0f}); // behind the camera
+            for (std::uint32_t i = 0; i < kFew; ++i) spheres[at + i] = {{0.0f, 0.0f, -10.0f}, 1000.0f};
+            const BuilderPtr builder = make_builder(settings);
+            Frame frame = build_frame(builder.get(), {make_view()}, spheres);
+            ASSERT_EQ(validate(builder.get(), frame, 200000).status, MANYLIGHTS_OK);
+            ASSERT_EQ(lights_at(frame, 0, 160.5f, 90.5f, 10.0f).size(), kFew) << structure << " " << at;
+            ASSERT_EQ(lights_at(frame, 0, 319.5f, 0.5f, 200.0f).size(), kFew) << structure << " " << at;
+        }
+    }
+}
+
 // Each of eight views gives what it gives alone, at its place in the shared buffers.
 TEST(Views, EightAtOnceGiveWhatEachGivesAlone) {
     const auto spheres = make_lights(1500, 12, 40.0, 0.5, 4.0);
