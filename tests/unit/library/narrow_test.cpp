@@ -161,6 +161,44 @@ TEST(Narrow, HoldsEveryPointOfTheSphereThatAPixelOfTheTileIsPromised) {
     EXPECT_GT(narrowed, 8000u) << "the planes must cut most of these spheres";
 }
 
+// The depths of a sphere inside one half-space, in doubles and without any slack. false: they do not meet.
+bool exact_depths(double slope, double offset, double depth, double radius, Interval& depths) {
+    const double length = std::sqrt(1.0 + slope * slope);
+    const double h = (offset - slope * depth) / length;
+    if (h <= -radius) return false;
+    const double rim = std::sqrt(std::max((radius - h) * (radius + h), 0.0)) / length;
+    const double middle = depth + h * slope / length;
+    depths.low = h + radius * slope / length >= 0.0 ? depth - radius : middle - rim;
+    depths.high = h - radius * slope / length >= 0.0 ? depth + radius : middle + rim;
+    return true;
+}
+
+// Spheres that are just touched, where the depths of a cap change most: what floats make of plane and sphere must hold
+// what doubles do, and the 2^-20 that a caller's depth may be off.
+TEST(Narrow, HoldsInFloatsWhatDoublesFindBesideAPlane) {
+    Random random(24);
+    int met = 0;
+    for (int i = 0; i < 300000; ++i) {
+        const double slope = random.between(-3, 3) * std::exp2(random.between(-4, 3));
+        const double length = std::sqrt(1.0 + slope * slope);
+        const float depth = static_cast<float>(std::exp2(random.between(-6, 12)));
+        const float radius = static_cast<float>(depth * std::exp2(random.between(-12, 3)));
+        const double touch = std::exp2(random.between(-30, -1)) * (random.unit() < 0.1 ? -1.0 : 1.0);
+        const float offset = static_cast<float>(slope * depth - radius * (1.0 - touch) * length);
+        Interval exact{};
+        if (!exact_depths(slope, offset, depth, radius, exact)) continue;
+        ++met;
+        const Lane slack = lanes::narrow_slack(to_lane(offset), to_lane(0.0), to_lane(depth), to_lane(radius));
+        const lanes::WedgeSpheres<Lane> sphere = {to_lane(offset), to_lane(depth), to_lane(radius), slack};
+        lanes::WedgeCuts<Lane> cut = lanes::uncut(sphere);
+        lanes::cut_side(sphere, to_lane(1.0 / length), to_lane(-slope / length), cut);
+        ASSERT_LE(to_double(lanes::finish_low(cut.low, cut.low, slack)), exact.low - 0x1p-20 * std::fabs(exact.low));
+        ASSERT_GE(to_double(lanes::finish_high(cut.high, cut.high, slack)),
+                  exact.high + 0x1p-20 * std::fabs(exact.high));
+    }
+    EXPECT_GT(met, 150000);
+}
+
 // A sphere on the axis, the plane x = depth: its foot is at (d / 2, d / 2).
 TEST(Narrow, HasTheDepthsOfTheCapThatAPlaneCuts) {
     const double d = 10.0;
