@@ -67,8 +67,10 @@ void measure_tiles(ManylightsBuilder& builder, std::uint32_t task) {
         WindowTile cut{};
         if (tile.count != 0)
             cut = measure_tile(scratch.runs, list_runs(builder.records, t, scratch.runs), tile.count, scratch.extents);
-        cut.first_reference = tile.first_reference;
-        tile = cut;
+        // Not first_reference: other tasks read it, to find their parts.
+        tile.base_code = cut.base_code;
+        tile.small_bits = cut.small_bits;
+        tile.form = cut.form;
     }
 }
 
