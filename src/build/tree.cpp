@@ -34,16 +34,50 @@ struct Tree {
     }
 };
 
-// Bottom up: each parent is the union of its two children.
+// Full leaves of so many lights each: a loop of known length has no branch to guess.
+template <std::uint32_t kLights>
+void fill_leaves(const float* low, const float* high, std::uint32_t leaf_count, DepthSpan* leaves) {
+    for (std::uint32_t leaf = 0; leaf < leaf_count; ++leaf) {
+        DepthSpan span = {low[kLights * leaf], high[kLights * leaf]};
+        for (std::uint32_t i = 1; i < kLights; ++i)
+            span = unite(span, {low[kLights * leaf + i], high[kLights * leaf + i]});
+        leaves[leaf] = span;
+    }
+}
+
+// All that are full; returns how many.
+std::uint32_t fill_full_leaves(const CellLights& lights, std::uint32_t begin, const Tree& tree, DepthSpan* leaves) {
+    const std::uint32_t per_leaf = tree.shape.lights_per_leaf;
+    const std::uint32_t full = tree.light_count / per_leaf;
+    const float* const low = lights.low + begin;
+    const float* const high = lights.high + begin;
+    switch (per_leaf) {
+    case 1:
+        fill_leaves<1>(low, high, full, leaves);
+        break;
+    case 2:
+        fill_leaves<2>(low, high, full, leaves);
+        break;
+    case 3:
+        fill_leaves<3>(low, high, full, leaves);
+        break;
+    case 4:
+        fill_leaves<4>(low, high, full, leaves);
+        break;
+    default:
+        for (std::uint32_t leaf = 0; leaf < full; ++leaf)
+            leaves[leaf] = span_of(lights, begin + leaf * per_leaf, begin + (leaf + 1) * per_leaf);
+    }
+    return full;
+}
+
+// Bottom up: each parent is the union of its two children. Behind the full leaves comes one with what is left, if any,
+// and the padding.
 void fill_heap(const CellLights& lights, std::uint32_t begin, const Tree& tree, DepthSpan* heap) {
     const std::uint32_t leaves = tree.shape.leaf_count;
-    const std::uint32_t end = begin + tree.light_count;
-    std::uint32_t next = begin;
-    for (std::uint32_t leaf = leaves; leaf < 2 * leaves; ++leaf) {
-        const std::uint32_t leaf_end = std::min(next + tree.shape.lights_per_leaf, end);
-        heap[leaf] = span_of(lights, next, leaf_end);
-        next = leaf_end;
-    }
+    const std::uint32_t full = fill_full_leaves(lights, begin, tree, heap + leaves);
+    for (std::uint32_t leaf = full; leaf < leaves; ++leaf)
+        heap[leaves + leaf] = span_of(lights, begin + tree.lights_before(leaf), begin + tree.lights_before(leaf + 1));
     for (std::uint32_t i = leaves - 1; i >= 1; --i) heap[i] = unite(heap[2 * i], heap[2 * i + 1]);
 }
 
