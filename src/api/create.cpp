@@ -9,18 +9,13 @@ namespace {
 void hand_allocator_to_arrays(ManylightsBuilder& builder) {
     const Allocator& allocator = builder.settings.allocator;
     for (View& view : builder.views) {
-        view.lights.use(allocator);
-        view.spheres.use(allocator);
+        view.lights.index.use(allocator);
+        view.lights.counts.use(allocator);
         view.visible.use(allocator);
     }
-    for (Array<SortItem>& items : builder.sort_items) items.use(allocator);
-    builder.sorted.use(allocator);
-    builder.bins.offsets.use(allocator);
-    builder.bins.ranks.use(allocator);
-    builder.nodes.offsets.use(allocator);
-    builder.nodes.is_tree.use(allocator);
+    builder.records.use(allocator);
     builder.windows.use(allocator);
-    builder.heaps.use(allocator);
+    builder.cells.use(allocator);
     builder.validate_marks.use(allocator);
 }
 

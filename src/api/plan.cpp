@@ -55,11 +55,7 @@ Outcome plan(ManylightsBuilder* builder, const ManylightsView* views, std::uint3
         builder->grids[v].width = cameras[v].axes[0].size;
         builder->grids[v].height = cameras[v].axes[1].size;
     }
-    const CullResult culled = cull_lights(*lights, builder->slices, has_windows(*builder), builder->views, view_count);
-    if (culled.out_of_memory) return out_of_memory("lights");
-    if (Outcome outcome = arrange(*builder); !outcome.ok()) return outcome;
-    builder->stats.ignored_lights = culled.ignored_lights;
-    builder->stats.first_ignored = culled.first_ignored;
+    if (Outcome outcome = arrange(*builder, *lights); !outcome.ok()) return outcome;
     builder->planned = true;
     *sizes = sizes_of(builder->counts);
     return {};

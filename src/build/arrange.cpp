@@ -1,4 +1,4 @@
-#include "src/build/builder.h"
+#include "src/build/record_stages.h"
 
 #include <algorithm>
 
@@ -6,25 +6,16 @@ namespace manylights::detail {
 
 namespace {
 
-bool sort_views(ManylightsBuilder& builder) {
-    builder.sorted.clear();
-    for (std::uint32_t v = 0; v < builder.view_count; ++v) {
-        builder.grids[v].first_light = builder.sorted.size();
-        if (!append_sorted(builder.views[v].lights, builder.sort_items, builder.sorted)) return false;
-        builder.grids[v].end_light = builder.sorted.size();
-    }
-    return true;
-}
-
 void lay_out_views(ManylightsBuilder& builder, std::uint32_t tile_px) {
-    std::uint64_t cell_offset = 0;
+    std::uint64_t tiles = 0;
     for (std::uint32_t v = 0; v < builder.view_count; ++v) {
-        lay_out(builder.grids[v], tile_px, builder.slices.count, cell_offset);
-        cell_offset += builder.grids[v].cell_count;
+        lay_out(builder.grids[v], tile_px, builder.slices.count, tiles);
+        tiles += builder.grids[v].tile_count;
     }
+    builder.records.tile_count = tiles;
     builder.counts = {};
     builder.counts.views = builder.view_count;
-    builder.counts.cells = cell_offset;
+    builder.counts.cells = tiles * (has_windows(builder) ? kHeaderCells : builder.slices.count);
     builder.counts.reference_words = reference_words(builder.settings.structure);
     if (!has_windows(builder))
         builder.counts.slice_edges = static_cast<std::uint64_t>(builder.view_count) * (builder.slices.count + 1);
@@ -35,38 +26,13 @@ bool is_coarsest(const ManylightsBuilder& builder) {
                        [](const Grid& grid) { return grid.tiles_x == 1 && grid.tiles_y == 1; });
 }
 
-// Counts and bins at the current tile size. Stops as soon as it is plain that the result will not fit, unless it has
-// to do: then only what no buffer can hold stops it.
-Fit bin_views(ManylightsBuilder& builder, bool has_to_do) {
-    Counts& counts = builder.counts;
-    const std::uint64_t most = builder.most_elements;
-    if (counts.cells > most) return Fit::kTooLarge;
-    for (std::uint32_t v = 0; v < builder.view_count; ++v) {
-        counts.references += count_references(builder.grids[v], builder.sorted.data(), most);
-        if (counts.references > most) return Fit::kTooLarge;
-    }
+// At the current tile size. Stops as soon as it is plain that the result will not fit, unless it has to do: then only
+// what no buffer can hold stops it.
+Fit arrange_tiles(ManylightsBuilder& builder, const ManylightsLights& lights, bool has_to_do) {
+    if (builder.counts.cells > builder.most_elements) return Fit::kTooLarge;
     if (!has_to_do && !within_budget(builder)) return Fit::kOverBudget;
-
-    if (!fill_bins(builder.grids, builder.view_count, builder.sorted.data(), counts.references, builder.bins) ||
-        !decide_cells(builder.settings, builder.slices, builder.grids, builder.views, builder.view_count,
-                      builder.sorted.data(), builder.bins, builder.nodes))
-        return Fit::kOutOfMemory;
-    counts.nodes = builder.nodes.offsets[counts.cells];
-    if (counts.nodes > most) return Fit::kTooLarge;
-    return within_budget(builder) ? Fit::kFits : Fit::kOverBudget;
-}
-
-// Tasks of write: enough work for each to pay for its start.
-bool prepare_tasks(ManylightsBuilder& builder) {
-    constexpr std::uint64_t kWorkPerTask = 1024; // cells, nodes and references
-    const Counts& counts = builder.counts;
-    const std::uint64_t worthwhile = (counts.cells + counts.nodes + counts.references) / kWorkPerTask + 1;
-    builder.task_count = 1;
-    if (builder.settings.parallel_for != nullptr)
-        builder.task_count =
-            static_cast<std::uint32_t>(std::min<std::uint64_t>(worthwhile, builder.settings.max_workers));
-    const std::size_t heap_size = 2 * static_cast<std::size_t>(builder.nodes.largest_tree_leaves);
-    return builder.heaps.resize(heap_size * builder.task_count);
+    return has_windows(builder) ? arrange_windows(builder, lights, has_to_do)
+                                : arrange_cells(builder, lights, has_to_do);
 }
 
 void take_cell_stats(const ManylightsBuilder& builder, ManylightsStats& stats) {
@@ -79,9 +45,9 @@ void take_cell_stats(const ManylightsBuilder& builder, ManylightsStats& stats) {
         return;
     }
     stats.cells = builder.counts.cells;
-    stats.empty_cells = builder.nodes.empty_cells;
-    stats.list_cells = builder.nodes.list_cells;
-    stats.tree_cells = builder.nodes.tree_cells;
+    stats.list_cells = builder.cells.list_cells;
+    stats.tree_cells = builder.cells.tree_cells;
+    stats.empty_cells = stats.cells - stats.list_cells - stats.tree_cells;
 }
 
 void take_stats(ManylightsBuilder& builder, bool over_budget) {
@@ -90,7 +56,10 @@ void take_stats(ManylightsBuilder& builder, bool over_budget) {
     stats.references = builder.counts.references;
     stats.nodes = builder.counts.nodes;
     take_cell_stats(builder, stats);
-    stats.visible_lights = visible_lights(builder);
+    stats.visible_lights = 0;
+    for (std::uint32_t v = 0; v < builder.view_count; ++v) stats.visible_lights += builder.views[v].lights.count;
+    stats.ignored_lights = builder.ignored.count;
+    stats.first_ignored = builder.ignored.first;
     stats.tile_px = builder.grids[0].tile_px;
     stats.over_budget = over_budget ? 1 : 0;
 }
@@ -101,28 +70,21 @@ bool within_budget(const ManylightsBuilder& builder) {
     return total_bytes(sizes_of(builder.counts)) <= builder.settings.max_bytes;
 }
 
-std::uint64_t visible_lights(const ManylightsBuilder& builder) {
-    std::uint64_t sum = 0;
-    for (std::uint32_t v = 0; v < builder.view_count; ++v) sum += builder.views[v].lights.size();
-    return sum;
-}
-
 // Over budget is coarser, never wrong: the tiles double until the bytes fit, or one tile covers every image.
-Outcome arrange(ManylightsBuilder& builder) {
-    if (!has_windows(builder) && !sort_views(builder)) return out_of_memory("lights");
+Outcome arrange(ManylightsBuilder& builder, const ManylightsLights& lights) {
+    if (!take_sample(builder, lights)) return out_of_memory("lights");
     Fit fit = Fit::kTooLarge;
-    if (visible_lights(builder) <= builder.most_elements) {
-        for (std::uint32_t tile_px = first_tile_px(builder);; tile_px *= 2) {
-            lay_out_views(builder, tile_px);
-            const bool coarsest = is_coarsest(builder);
-            fit = has_windows(builder) ? arrange_windows(builder, coarsest) : bin_views(builder, coarsest);
-            if (coarsest || fit == Fit::kFits || fit == Fit::kOutOfMemory) break;
-        }
+    for (std::uint32_t tile_px = first_tile_px(builder);; tile_px *= 2) {
+        lay_out_views(builder, tile_px);
+        const bool coarsest = is_coarsest(builder);
+        fit = arrange_tiles(builder, lights, coarsest);
+        if (coarsest || fit == Fit::kFits || fit == Fit::kOutOfMemory) break;
     }
     if (fit == Fit::kTooLarge)
         return {MANYLIGHTS_TOO_LARGE, "lights.count",
                 "must give fewer than 2^32 references, nodes and cells with one tile per view", 0};
-    if (fit == Fit::kOutOfMemory || !prepare_tasks(builder)) return out_of_memory("cells");
+    if (fit == Fit::kOutOfMemory) return out_of_memory("cells");
+    builder.task_count = has_windows(builder) ? builder.windows.tile_tasks : builder.cells.tile_tasks;
     take_stats(builder, fit == Fit::kOverBudget);
     return {};
 }

@@ -57,12 +57,12 @@ Interval slope_bounds(double offset, double depth, double radius, double near_de
 
 // A pixel p is shaded for points that project within guard_px of its centre p + 0.5. It needs the light if that
 // interval, widened by rounding, meets [low, high]: high >= p + 0.5 - reach and low <= p + 0.5 + reach. So both ends
-// move outward by reach: conservative. The rounding covers an edge that the shader's pixel and this one compute
-// differently: 0.05 pixels are a thousandth of a tile of 48, 1e-5 of the image is far above float's precision there.
+// move outward by reach: conservative. 0.05 pixels are a thousandth of a tile of 48, 1e-5 of the image is far above
+// float's precision there.
 PixelRange pixel_bounds(const Axis& axis, Interval slopes, double guard_px) {
     const double a = axis.origin + axis.scale * slopes.low;
     const double b = axis.origin + axis.scale * slopes.high;
-    const double reach = guard_px + 0.05 + 1e-5 * axis.size;
+    const double reach = guard_reach(axis, guard_px);
     const double last_pixel = axis.size - 1.0;
     const double first = std::max(std::ceil(std::min(a, b) - 0.5 - reach), 0.0);
     const double last = std::min(std::floor(std::max(a, b) - 0.5 + reach), last_pixel);

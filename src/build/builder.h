@@ -1,13 +1,10 @@
 #pragma once
 // What a builder keeps between calls: its settings, and the memory and results of the last plan.
 
-#include "src/build/bin.h"
+#include "src/build/cells.h"
 #include "src/build/cull.h"
-#include "src/build/decide.h"
 #include "src/build/settings.h"
 #include "src/build/slices.h"
-#include "src/build/sort.h"
-#include "src/build/tree.h"
 #include "src/build/windows.h"
 #include "src/format/layout.h"
 
@@ -21,16 +18,14 @@ struct ManylightsBuilder {
     bool planned = false;
     std::uint64_t most_elements = UINT32_MAX; // of references, nodes and cells: their offsets have 32 bits
 
-    manylights::detail::Array<manylights::detail::SortItem> sort_items[2];
-    manylights::detail::Array<manylights::detail::VisibleLight> sorted; // of all views, one after the other
-    manylights::detail::Bins bins;
-    manylights::detail::CellNodes nodes;
-    manylights::detail::Windows windows;
-    manylights::detail::Array<manylights::detail::DepthSpan> heaps; // one per task of write
-    std::uint32_t task_count = 1;
+    manylights::detail::TileRecords records;
+    manylights::detail::Windows windows; // of one kind of structure
+    manylights::detail::Cells cells;     // of the others
+    std::uint32_t task_count = 1;        // of write
 
     manylights::detail::Array<std::uint32_t> validate_marks;
 
+    manylights::detail::Ignored ignored{};
     manylights::detail::Counts counts{};
     ManylightsStats stats{};
 };
@@ -45,19 +40,9 @@ inline bool has_windows(const ManylightsBuilder& builder) {
 enum class Fit { kFits, kOverBudget, kTooLarge, kOutOfMemory };
 
 bool within_budget(const ManylightsBuilder& builder);
-std::uint64_t visible_lights(const ManylightsBuilder& builder); // of all views
 
-// Sorting to node offsets: coarsens until the result fits, and fills counts and stats. The lights are culled already.
-Outcome arrange(ManylightsBuilder& builder);
-
-// Windows: the tile size to begin with, and the work at one tile size. kOverBudget also where tiles are chosen for the
-// caller and larger ones do better; has_to_do: no larger ones are left, only what no buffer can hold stops it.
-std::uint32_t first_tile_px(const ManylightsBuilder& builder);
-Fit arrange_windows(ManylightsBuilder& builder, bool has_to_do);
-
-// Windows: headers, entries and references of these tiles, a part of write.
-void write_window_tiles(const ManylightsBuilder& builder, std::uint64_t begin, std::uint64_t end,
-                        const ManylightsBuffers& buffers);
+// Culls and sorts to node offsets: coarsens until the result fits, and fills counts and stats.
+Outcome arrange(ManylightsBuilder& builder, const ManylightsLights& lights);
 
 // The buffers of the last plan, into the caller's memory.
 void write_buffers(ManylightsBuilder& builder, const ManylightsBuffers& buffers);

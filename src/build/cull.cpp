@@ -1,6 +1,7 @@
 #include "src/build/cull.h"
 
 #include "src/build/bounds.h"
+#include "src/build/narrow.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,65 +12,59 @@ namespace manylights::detail {
 
 namespace {
 
-// Ranges beyond this one reach everything: it stands for infinity, so that no infinity enters a formula (its square
-// fits a float, so membership works up to here).
-constexpr float kEverywhere = 1e18f;
-
-bool is_finite(float x) { return std::fabs(x) <= std::numeric_limits<float>::max(); }
-
-// "Keep if" forms: a NaN fails every comparison.
-bool is_usable(const ManylightsSphere& light) {
-    return is_finite(light.center[0]) && is_finite(light.center[1]) && is_finite(light.center[2]) &&
-           light.range >= 0.0f;
-}
+constexpr double kFloatMax = std::numeric_limits<float>::max();
 
 double largest_coordinate(const float (&p)[3]) { return std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])}); }
 
-// light.range in (0, kEverywhere].
-bool find_in_view(const ManylightsSphere& light, double motion_margin, const Slices& slices, const Camera& camera,
-                  VisibleLight& found, ViewSphere& sphere) {
-    double relative[3]; // to the camera, by the rule that membership uses: each coordinate rounded once to float
-    for (int i = 0; i < 3; ++i) relative[i] = light.center[i] - camera.position[i];
-    double(&center)[3] = sphere.center;
-    for (int i = 0; i < 3; ++i) {
-        const double* row = camera.rotation[i];
-        center[i] = row[0] * relative[0] + row[1] * relative[1] + row[2] * relative[2];
-    }
-    const double distance =
-        std::sqrt(relative[0] * relative[0] + relative[1] * relative[1] + relative[2] * relative[2]);
-    // Farther away than floats reach: no point that can be shaded is as far.
-    if (!(distance <= std::numeric_limits<float>::max())) return false;
+// The nearest float that is not below, or not above. Twice 2^-24 is more than the rounding of what is not denormal.
+float float_above(double x) { return static_cast<float>(std::min(x + std::fabs(x) * 0x1p-23 + 1e-44, kFloatMax)); }
+float float_below(double x) { return -float_above(-x); }
 
-    const double world_extent = std::max(largest_coordinate(light.center), camera.position_extent);
-    const double radius = culling_radius(light.range, motion_margin, distance, world_extent, camera.skew);
-    sphere.radius = radius;
-    const double depth = center[2];
-    // Conservative: near_depth lies before the near plane, far_depth behind the far plane, radius outside the light.
-    if (!(depth + radius >= camera.near_depth && depth - radius <= camera.far_depth)) return false;
+bool set_pixels(const ViewCull& cull, const double (&center)[3], double radius, FoundLight& found) {
+    std::uint32_t* const pixels[2] = {&found.pixels_x, &found.pixels_y};
     for (int i = 0; i < 2; ++i) {
-        const Interval slopes = slope_bounds(center[i], depth, radius, camera.near_depth);
-        const PixelRange pixels = pixel_bounds(camera.axes[i], slopes, camera.guard_px);
-        if (pixels.empty) return false;
-        found.first_px[i] = static_cast<std::uint16_t>(pixels.first);
-        found.last_px[i] = static_cast<std::uint16_t>(pixels.last);
+        const Interval slopes = slope_bounds(center[i], center[2], radius, cull.camera->near_depth);
+        const PixelRange range = pixel_bounds(cull.camera->axes[i], slopes, cull.camera->guard_px);
+        if (range.empty) return false;
+        *pixels[i] = range.first | range.last << 16;
     }
-    const DepthRange depths = depth_bounds(depth, radius);
-    found.min_depth = depths.low;
-    found.max_depth = depths.high;
-    found.center_depth = static_cast<float>(std::clamp(depth, -3e38, 3e38));
-    found.first_slice = static_cast<std::uint8_t>(slice_of(slices, depths.low));
-    found.last_slice = static_cast<std::uint8_t>(slice_of(slices, depths.high));
     return true;
 }
 
-ManylightsSphere load_light(const ManylightsLights& lights, std::size_t stride, std::uint32_t index) {
-    ManylightsSphere light;
-    std::memcpy(&light, static_cast<const char*>(lights.spheres) + index * stride, sizeof(light));
-    light.range = std::min(light.range, kEverywhere); // a NaN stays one
-    return light;
+bool is_between_planes(const Camera& camera, double depth, double radius) {
+    // Conservative: near_depth lies before the near plane, far_depth behind the far plane, radius outside the light.
+    return depth + radius >= camera.near_depth && depth - radius <= camera.far_depth;
 }
 
 } // namespace
+
+LightSpan whole_span(const ManylightsLights& lights) {
+    const std::size_t stride = lights.sphere_stride != 0 ? lights.sphere_stride : sizeof(ManylightsSphere);
+    return {static_cast<const char*>(lights.spheres), stride, 0, lights.count};
+}
+
+LightSpan block_span(const ManylightsLights& lights, std::uint64_t block) {
+    LightSpan span = whole_span(lights);
+    span.first = static_cast<std::uint32_t>(block * kBlockLights);
+    span.spheres += span.first * span.stride;
+    span.count = std::min(lights.count - span.first, kBlockLights);
+    return span;
+}
+
+bool list_visible(View& view) {
+    view.lights.count = 0;
+    for (std::uint64_t b = 0; b < view.lights.counts.size(); ++b) view.lights.count += view.lights.counts[b];
+    if (!view.visible.resize(view.lights.count)) return false;
+    std::uint64_t begin = 0;
+    for (std::uint64_t b = 0; b < view.lights.counts.size(); ++b) {
+        const std::uint32_t count = view.lights.counts[b];
+        if (count == 0) continue;
+        std::memcpy(view.visible.data() + begin, view.lights.index.data() + b * kBlockRoom,
+                    count * sizeof(std::uint32_t));
+        begin += count;
+    }
+    return true;
+}
 
 // Why the culling radius contains every point that the membership rule accepts, with u = 2^-24, c the light and p the
 // point relative to the camera:
@@ -89,35 +84,69 @@ double culling_radius(double range, double motion_margin, double distance, doubl
     return (reach + rounding) * (1.0 + skew) + skew * distance;
 }
 
-CullResult cull_lights(const ManylightsLights& lights, const Slices& slices, bool keeps_spheres, View* views,
-                       std::uint32_t view_count) {
-    CullResult result{};
-    for (std::uint32_t v = 0; v < view_count; ++v) {
-        views[v].lights.clear();
-        views[v].spheres.clear();
-        views[v].visible.clear();
+// The same radius in floats, with d the sum of |coordinates| of c instead of its length, is
+// reach + slack * (reach + d) + world_slack * extent + 1e-20. Beyond what culling_radius adds:
+//   * skew multiplies also the rounding terms; 2^-9 of them is more than skew, which is 1e-3 at most;
+//   * the centre in view space is off by 4u * |row| * |c| per axis (three products, two sums), 7u * |c| in length;
+//   * this formula itself rounds six times, each by u of the radius at most.
+// The last two are less than 8e-7 * (reach + d).
+ViewCull make_view_cull(const Camera& camera, float motion_margin) {
+    ViewCull cull{};
+    cull.camera = &camera;
+    for (int i = 0; i < 3; ++i) {
+        cull.position[i] = camera.position[i];
+        for (int k = 0; k < 3; ++k) cull.rotation[i][k] = static_cast<float>(camera.rotation[i][k]); // exact
     }
-    const std::size_t stride = lights.sphere_stride != 0 ? lights.sphere_stride : sizeof(ManylightsSphere);
-    for (std::uint32_t i = 0; i < lights.count; ++i) {
-        const ManylightsSphere light = load_light(lights, stride, i);
-        if (!is_usable(light)) {
-            if (result.ignored_lights++ == 0) result.first_ignored = i;
-            continue;
+    cull.motion_margin = motion_margin;
+    cull.slack = float_above(1.81e-6 + (1.0 + 0x1p-8) * camera.skew);
+    cull.world_slack = float_above(4.0 * 0x1p-23 * (1.0 + 0x1p-8));
+    cull.position_extent = float_above(camera.position_extent);
+    cull.near_depth = float_below(camera.near_depth);
+    cull.far_depth =
+        std::isinf(camera.far_depth) ? static_cast<float>(camera.far_depth) : float_above(camera.far_depth);
+    cull.has_float_bounds = true;
+    for (int i = 0; i < 2; ++i) {
+        const Axis& axis = camera.axes[i];
+        const TileWedge image = tile_wedge(axis, 0, axis.size - 1, camera.guard_px);
+        for (int k = 0; k < 2; ++k) {
+            cull.side_offset[2 * i + k] = static_cast<float>(image.sides[k].offset);
+            cull.side_depth[2 * i + k] = static_cast<float>(image.sides[k].depth);
         }
-        if (!(light.range > 0.0f)) continue; // strict membership: no point is nearer than 0
-        VisibleLight found{};
-        ViewSphere sphere{};
-        found.index = i;
-        for (std::uint32_t v = 0; v < view_count; ++v) {
-            if (!find_in_view(light, lights.motion_margin, slices, views[v].camera, found, sphere)) continue;
-            if (!views[v].lights.push(found) || !views[v].visible.push(i) ||
-                (keeps_spheres && !views[v].spheres.push(sphere))) {
-                result.out_of_memory = true;
-                return result;
-            }
-        }
+        cull.scale[i] = static_cast<float>(axis.scale);
+        cull.origin[i] = static_cast<float>(axis.origin);
+        cull.reach[i] = float_above(guard_reach(axis, camera.guard_px) + float_bounds_slack(axis));
+        cull.last_px[i] = static_cast<float>(axis.size - 1);
+        cull.has_float_bounds = cull.has_float_bounds && floats_suffice(axis);
     }
-    return result;
+    return cull;
+}
+
+bool find_bounds(const ViewCull& cull, FoundLight& found) {
+    return set_pixels(cull, {found.x, found.y, found.depth}, found.radius, found);
+}
+
+bool find_in_view(const ViewCull& cull, const ManylightsSphere& light, FoundLight& found) {
+    const Camera& camera = *cull.camera;
+    double relative[3]; // to the camera, by the rule that membership uses: each coordinate rounded once to float
+    for (int i = 0; i < 3; ++i) relative[i] = light.center[i] - camera.position[i];
+    double center[3];
+    for (int i = 0; i < 3; ++i) {
+        const double* row = camera.rotation[i];
+        center[i] = row[0] * relative[0] + row[1] * relative[1] + row[2] * relative[2];
+    }
+    const double distance =
+        std::sqrt(relative[0] * relative[0] + relative[1] * relative[1] + relative[2] * relative[2]);
+    // Farther away than floats reach: no point that can be shaded is as far.
+    if (!(distance <= kFloatMax)) return false;
+    const double world_extent = std::max(largest_coordinate(light.center), camera.position_extent);
+    const double radius = culling_radius(light.range, cull.motion_margin, distance, world_extent, camera.skew);
+    if (!is_between_planes(camera, center[2], radius) || !set_pixels(cull, center, radius, found)) return false;
+    const auto to_float = [](double x) { return static_cast<float>(std::clamp(x, -kFloatMax, kFloatMax)); };
+    found.x = to_float(center[0]);
+    found.y = to_float(center[1]);
+    found.depth = to_float(center[2]);
+    found.radius = float_above(radius + 0x1p-22 * distance); // the centre was rounded
+    return true;
 }
 
 } // namespace manylights::detail

@@ -29,7 +29,7 @@ Outcome check_ranges(const ManylightsSettings& given) {
     if (given.leaf_size > kMaxLeafLights) return invalid("settings.leaf_size", "must be at most 65535");
     if (!positive_or_zero(given.slice_near)) return invalid("settings.slice_near", "must be finite and positive, or 0");
     if (!positive_or_zero(given.slice_far)) return invalid("settings.slice_far", "must be finite and positive, or 0");
-    if (given.max_workers > 1024) return invalid("settings.max_workers", "must be at most 1024");
+    if (given.max_workers > kMaxWorkers) return invalid("settings.max_workers", "must be at most 1024");
     if (given.allocate == nullptr && given.release != nullptr)
         return invalid("settings.allocate", "must be set where release is");
     if (given.allocate != nullptr && given.release == nullptr)

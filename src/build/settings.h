@@ -8,6 +8,8 @@
 
 namespace manylights::detail {
 
+constexpr std::uint32_t kMaxWorkers = 1024;
+
 struct Settings {
     std::uint32_t structure;
     std::uint32_t tile_px;     // 0: windows choose it each frame

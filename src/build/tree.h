@@ -1,8 +1,6 @@
 #pragma once
 // A cell's nodes, written once each and in ascending order: the destination may be write-combined memory.
 
-#include "src/build/cull.h"
-
 #include <manylights/format.h>
 
 #include <cstdint>
@@ -14,10 +12,9 @@ struct DepthSpan {
     float low, high;
 };
 
-// The lights of a cell, and where its references will be.
+// The depths of a cell's lights, in order, and where its references will be.
 struct CellLights {
-    const VisibleLight* sorted;
-    const std::uint32_t* ranks;
+    const float *low, *high;
     std::uint32_t count;
     std::uint32_t first_reference;
 };

@@ -2,10 +2,12 @@
 // Depth windows: a tile's references are ordered by where their depths begin, and each depth slice of the tile names
 // the run of them that can reach it. See <manylights/format.h> for the layout. All decisions are made on integer depth
 // codes, by one function for producer and reader.
+//
+//   record   each light's depths in each of its tiles, narrowed             windows_narrow.cpp, tile_records.h
+//   measure  each tile's classes and slices, so its exact size              windows_tile.cpp
+//   write    each tile's records in order, and the windows over them        windows_write.cpp
 
-#include "src/build/bin.h"
-#include "src/build/cull.h"
-#include "src/build/narrow.h"
+#include "src/build/tile_records.h"
 #include "src/format/layout.h"
 
 #include <manylights/format.h>
@@ -16,30 +18,12 @@ namespace manylights::detail {
 
 constexpr std::uint64_t kHeaderCells = sizeof(MlTile) / sizeof(MlCell);
 
-// One light in one tile, narrowed. Decided once, in plan; write replays it.
-struct WindowRecord {
-    std::uint32_t light;     // the caller's index
-    std::uint32_t near_bits; // depth code 24 bits, x0 4 bits, x1 4 bits
-    std::uint32_t far_bits;  // depth code 24 bits, y0 4 bits, y1 4 bits
-    std::uint32_t tile;      // of all views
-
-    std::uint32_t near_code() const { return near_bits & ML_DEPTH_CODE_MAX; }
-    std::uint32_t far_code() const { return far_bits & ML_DEPTH_CODE_MAX; }
-    std::uint32_t extent() const { return far_code() - near_code(); }
-};
-
-// How a light meets a column or a row of tiles.
-struct TileCut {
-    WedgeCut cut;
-    std::uint32_t tile;  // along the axis
-    std::uint32_t steps; // of the tile, that the light's pixels span: first and last, 4 bits each
-};
-
 struct WindowTile {
     std::uint32_t first_reference;
     std::uint32_t first_entry; // cell
     std::uint32_t base_code;
-    std::uint32_t small_count; // references of the first class
+    std::uint32_t count;
+    std::uint32_t small_bits; // extents of so many bits belong to the first class
     MlTileForm form;
 };
 
@@ -48,31 +32,65 @@ struct WindowView {
     std::uint64_t cell_offset, cell_count; // headers and entries
 };
 
+// As it stands in the references.
+struct WindowReference {
+    MlUint light, bounds;
+};
+
+// Scratch for the records of one tile.
+struct TileScratch {
+    RecordRun* runs;
+    std::uint32_t* extents;
+    std::uint32_t* lights;
+    std::uint32_t* slices; // of the near end, with the class; of the far end << 16
+    std::uint32_t* bounds;
+    WindowReference* ordered;
+};
+
 struct Windows {
     WindowView views[kMaxViews];
-    Array<TileWedge> wedges;      // of one view: its columns, then its rows
-    Array<TileCut> rows;          // of one light
-    Array<std::uint32_t> offsets; // tile count + 2, as in fill_bins: the references of tile t begin at offsets[t]
-    Array<WindowRecord> found;    // in order of views and lights; in the end by tile, as they are written
-    Array<WindowRecord> by_tile;  // the same, by tile, in order of lights
+    Array<RecordRun> runs;        // per task that works on tiles
+    Array<std::uint32_t> scratch; // likewise
     Array<WindowTile> tiles;
-    std::uint64_t empty_tiles, flat_tiles;
+    std::uint32_t tile_tasks = 1; // that cut and write the tiles
+    std::uint32_t largest_tile = 0;
+    std::uint64_t empty_tiles = 0, flat_tiles = 0;
 
     void use(const Allocator& allocator);
 };
 
 // Codes per unit of depth: a power of two that gives nearly all lights (all but one in 1,024) a near end below 2^18, so
-// that depths to 64 times as far have codes of their own.
-float choose_depth_scale(const VisibleLight* lights, std::uint64_t count);
+// that depths to 64 times as far have codes of their own. exponents: how many near ends have which; bin b holds those
+// in [2^(b - 127), 2^(b - 126)), bin 0 also all that are less.
+float choose_depth_scale(const std::uint32_t (&exponents)[256]);
 
-// Narrows every light of the views to every tile of its box, and puts the records into tile order. fits is false, and
-// the rest is not done, where there are more than limit records. False: out of memory.
-[[nodiscard]] bool bin_windows(const Grid* grids, const View* views, std::uint32_t view_count, std::uint64_t limit,
-                               Windows& windows, bool& fits);
+// Chooses the classes and slices of a tile with count records. All of the result but where it begins. count is at least
+// 1; extents is scratch.
+WindowTile measure_tile(const RecordRun* runs, std::uint32_t run_count, std::uint32_t count, std::uint32_t* extents);
 
-// Chooses the classes and slices of a tile and puts its records into their final order, from one array to the other.
-// All of the result but where it begins. count is at least 1.
-WindowTile cut_tile(const WindowRecord* records, std::uint32_t count, WindowRecord* ordered);
+constexpr std::uint32_t kFlatReferences = 8; // up to so many, a table costs more than it saves
+
+// The extents of a tile's depth ranges. Of up to kFlatReferences only the largest matters, and the others are left out.
+struct Extents {
+    std::uint32_t base_code, last_code;
+    std::uint32_t counts[26];  // of those below 2^bits
+    std::uint32_t largest[26]; // of those
+};
+Extents measure_extents(const RecordRun* runs, std::uint32_t run_count, std::uint32_t count, std::uint32_t* extents);
+
+// Of each record: its light, its class and slices, and the bounds that go to the reference.
+void describe_records(const WindowTile& tile, std::uint32_t run_count, const TileScratch& scratch);
+
+constexpr std::uint32_t kClassSlices = 256; // slices of the large class are numbered from here
+
+// Per slice of both classes: where its references end, and the first one of its window.
+struct TileWindows {
+    std::uint32_t end[2 * kClassSlices + 1];
+    std::uint32_t first[2 * kClassSlices];
+};
+
+// Puts described records into their final order: scratch.ordered.
+void order_records(const WindowTile& tile, const TileScratch& scratch, TileWindows& windows);
 
 // The slice of a depth code that is not below the tile's base.
 inline std::uint32_t slice_of_code(const WindowTile& tile, std::uint32_t code) {

@@ -1,5 +1,5 @@
 // Depth windows at one tile size: records, cuts, and the exact counts of what write will replay.
-#include "src/build/builder.h"
+#include "src/build/record_stages.h"
 
 #include <algorithm>
 
@@ -7,42 +7,89 @@ namespace manylights::detail {
 
 namespace {
 
-// While a light takes more references than this on average, larger tiles cost less than they save.
-constexpr std::uint64_t kReferencesPerLight = 12;
-constexpr std::uint64_t kVeryManyLights = 500000;
+constexpr std::size_t kScratchWords = 1 + 1 + 1 + 1 + 2; // per record, see TileScratch
 
 // What the result may have of references at the most, to be of use at this tile size.
 std::uint64_t reference_limit(const ManylightsBuilder& builder, bool has_to_do) {
-    std::uint64_t limit = builder.most_elements / builder.counts.reference_words;
+    const std::uint64_t limit = builder.most_elements / builder.counts.reference_words;
     if (has_to_do) return limit;
-    if (builder.settings.tile_px == 0) limit = std::min(limit, kReferencesPerLight * visible_lights(builder));
     return std::min(limit, builder.settings.max_bytes / (builder.counts.reference_words * sizeof(MlUint)));
 }
 
-// Puts the tile's references behind those of the tile before, and so its entries; returns the end of the entries.
-std::uint64_t place_tile(Windows& windows, std::uint64_t index, std::uint64_t cell) {
-    const std::uint32_t first = windows.offsets[index];
-    const std::uint32_t count = windows.offsets[index + 1] - first;
-    WindowTile& tile = windows.tiles[index];
-    tile = count != 0 ? cut_tile(windows.by_tile.data() + first, count, windows.found.data() + first) : WindowTile{};
-    tile.first_reference = first;
-    tile.first_entry = static_cast<std::uint32_t>(cell);
-    if (count == 0) ++windows.empty_tiles;
-    if (tile.form.flat_count != 0) ++windows.flat_tiles;
-    return count != 0 ? cell + ml_entry_cell_count(tile.form) : cell;
+// What comes before this tile, to share the work on tiles evenly.
+std::uint64_t work_before(const ManylightsBuilder& builder, std::uint64_t tile) {
+    constexpr std::uint64_t kWorkPerTile = 32; // records
+    const TileRecords& records = builder.records;
+    return tile * kWorkPerTile +
+           (tile < records.tile_count ? builder.windows.tiles[tile].first_reference : records.count);
 }
 
-// The cells of the views: of each its headers, then its entries. Offsets are only good where the end is within 32 bits.
-std::uint64_t place_tiles(ManylightsBuilder& builder) {
+// Puts the tile's references behind those of the tile before.
+void place_references(ManylightsBuilder& builder) {
     Windows& windows = builder.windows;
-    windows.empty_tiles = windows.flat_tiles = 0;
+    std::uint32_t first = 0;
+    windows.largest_tile = 0;
+    windows.empty_tiles = 0;
+    for (std::uint64_t t = 0; t < builder.records.tile_count; ++t) {
+        const std::uint32_t count = tile_record_count(builder.records, t);
+        windows.tiles[t].first_reference = first;
+        windows.tiles[t].count = count;
+        windows.largest_tile = std::max(windows.largest_tile, count);
+        windows.empty_tiles += count == 0 ? 1 : 0;
+        first += count;
+    }
+}
+
+std::size_t record_room(const Windows& windows) { return windows.largest_tile + kLanePadding; }
+
+// No more tasks than the largest tile leaves work for: each has room for that one.
+bool prepare_tile_tasks(ManylightsBuilder& builder) {
+    constexpr std::uint64_t kWorkPerTask = 1024; // records, and headers
+    Windows& windows = builder.windows;
+    const TileRecords& records = builder.records;
+    const std::uint64_t work = records.count + kHeaderCells * records.tile_count;
+    const std::uint64_t useful = records.count / std::max(windows.largest_tile, 1u) + 1;
+    windows.tile_tasks = static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(task_count_for(builder.settings, work, kWorkPerTask), useful));
+    return windows.scratch.resize(kScratchWords * record_room(windows) * windows.tile_tasks) &&
+           windows.runs.resize(run_room(records, windows.largest_tile) * windows.tile_tasks);
+}
+
+void measure_tiles(ManylightsBuilder& builder, std::uint32_t task) {
+    Windows& windows = builder.windows;
+    const std::uint64_t tile_count = builder.records.tile_count;
+    const TileScratch scratch = tile_scratch(builder, task);
+    const auto before = [&](std::uint64_t tile) { return work_before(builder, tile); };
+    const Part part = part_of(before(tile_count), task, windows.tile_tasks);
+    const std::uint64_t end = first_with(tile_count, part.end, before);
+    for (std::uint64_t t = first_with(tile_count, part.begin, before); t < end; ++t) {
+        WindowTile& tile = windows.tiles[t];
+        WindowTile cut{};
+        if (tile.count != 0)
+            cut = measure_tile(scratch.runs, list_runs(builder.records, t, scratch.runs), tile.count, scratch.extents);
+        // Not first_reference: other tasks read it, to find their parts.
+        tile.base_code = cut.base_code;
+        tile.small_bits = cut.small_bits;
+        tile.form = cut.form;
+    }
+}
+
+// The cells of the views: of each its headers, then its tiles' entries. Offsets are only good where the end is within
+// 32 bits.
+std::uint64_t place_entries(ManylightsBuilder& builder) {
+    Windows& windows = builder.windows;
+    windows.flat_tiles = 0;
     std::uint64_t cell = 0;
     for (std::uint32_t v = 0; v < builder.view_count; ++v) {
         const Grid& grid = builder.grids[v];
         windows.views[v].cell_offset = cell;
-        cell += kHeaderCells * grid.cell_count;
-        for (std::uint64_t t = grid.cell_offset; t < grid.cell_offset + grid.cell_count; ++t)
-            cell = place_tile(windows, t, cell);
+        cell += kHeaderCells * grid.tile_count;
+        for (std::uint64_t t = grid.tile_offset; t < grid.tile_offset + grid.tile_count; ++t) {
+            WindowTile& tile = windows.tiles[t];
+            tile.first_entry = static_cast<std::uint32_t>(cell);
+            if (tile.form.flat_count != 0) ++windows.flat_tiles;
+            if (tile.count != 0) cell += ml_entry_cell_count(tile.form);
+        }
         windows.views[v].cell_count = cell - windows.views[v].cell_offset;
     }
     return cell;
@@ -50,29 +97,35 @@ std::uint64_t place_tiles(ManylightsBuilder& builder) {
 
 } // namespace
 
-std::uint32_t first_tile_px(const ManylightsBuilder& builder) {
-    if (builder.settings.tile_px != 0) return builder.settings.tile_px;
-    const bool very_many = std::any_of(builder.views, builder.views + builder.view_count,
-                                       [](const View& view) { return view.lights.size() >= kVeryManyLights; });
-    return very_many ? 24 : 32;
+void Windows::use(const Allocator& allocator) {
+    runs.use(allocator);
+    scratch.use(allocator);
+    tiles.use(allocator);
 }
 
-// The records' own order is done with once they are in tile order: its memory takes the final order.
-Fit arrange_windows(ManylightsBuilder& builder, bool has_to_do) {
+TileScratch tile_scratch(ManylightsBuilder& builder, std::uint32_t task) {
+    Windows& windows = builder.windows;
+    const std::size_t room = record_room(windows);
+    std::uint32_t* words = windows.scratch.data() + kScratchWords * room * task;
+    return {windows.runs.data() + run_room(builder.records, windows.largest_tile) * task,
+            words,
+            words + room,
+            words + 2 * room,
+            words + 3 * room,
+            reinterpret_cast<WindowReference*>(words + 4 * room)};
+}
+
+Fit arrange_windows(ManylightsBuilder& builder, const ManylightsLights& lights, bool has_to_do) {
     Counts& counts = builder.counts;
     Windows& windows = builder.windows;
-    const std::uint64_t tile_count = counts.cells;
-    counts.cells *= kHeaderCells;
-    if (counts.cells > builder.most_elements) return Fit::kTooLarge;
-    if (!has_to_do && !within_budget(builder)) return Fit::kOverBudget;
-
-    bool fits = false;
     const std::uint64_t limit = reference_limit(builder, has_to_do);
-    if (!bin_windows(builder.grids, builder.views, builder.view_count, limit, windows, fits)) return Fit::kOutOfMemory;
-    if (!fits) return has_to_do ? Fit::kTooLarge : Fit::kOverBudget;
-    if (!windows.tiles.resize(tile_count)) return Fit::kOutOfMemory;
-    counts.references = windows.found.size();
-    counts.cells = place_tiles(builder);
+    if (Fit fit = collect_records(builder, lights, limit, has_to_do); fit != Fit::kFits) return fit;
+    if (!windows.tiles.resize(builder.records.tile_count)) return Fit::kOutOfMemory;
+    place_references(builder);
+    if (!prepare_tile_tasks(builder)) return Fit::kOutOfMemory;
+    run_tasks(builder.settings, windows.tile_tasks, [&](std::uint32_t task) { measure_tiles(builder, task); });
+    counts.cells = place_entries(builder);
+    counts.references = builder.records.count;
     if (counts.cells > builder.most_elements) return Fit::kTooLarge;
     return within_budget(builder) ? Fit::kFits : Fit::kOverBudget;
 }

@@ -1,3 +1,4 @@
+// How each tile is cut: its extents a vector of records at a time, and the choice itself.
 #include "src/build/windows.h"
 
 #include "src/format/layout.h"
@@ -5,49 +6,154 @@
 #include <algorithm>
 #include <bit>
 
-namespace manylights::detail {
+#include "src/build/lanes.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "src/build/windows_tile.cpp"
+#include <hwy/foreach_target.h>
+// foreach_target comes first.
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace manylights::detail::HWY_NAMESPACE {
 namespace {
 
-constexpr std::uint32_t kFlatReferences = 8; // up to so many, a table costs more than it saves
-constexpr int kExtentBits = 25;              // 0 to 24 of them
+namespace hn = hwy::HWY_NAMESPACE;
+using Words = hn::Vec<hn::ScalableTag<std::uint32_t>>;
+constexpr hn::ScalableTag<std::uint32_t> kW;
 
-// The extents of a tile's depth ranges, by their number of bits.
-struct Extents {
-    std::uint32_t base_code, last_code;
-    std::uint32_t counts[kExtentBits];
-    std::uint32_t largest[kExtentBits];
+struct RecordLanes {
+    Words light, near_bits, far_bits, near_code, far_code;
 };
 
-Extents measure(const WindowRecord* records, std::uint32_t count) {
-    Extents extents = {ML_DEPTH_CODE_MAX, 0, {}, {}};
-    for (std::uint32_t i = 0; i < count; ++i) {
-        extents.base_code = std::min(extents.base_code, records[i].near_code());
-        extents.last_code = std::max(extents.last_code, records[i].far_code());
-        const std::uint32_t extent = records[i].extent();
-        const auto bits = static_cast<int>(std::bit_width(extent));
-        ++extents.counts[bits];
-        extents.largest[bits] = std::max(extents.largest[bits], extent);
+HWY_INLINE RecordLanes load_records(const TileRecord* records) {
+    RecordLanes r;
+    hn::LoadInterleaved3(kW, reinterpret_cast<const std::uint32_t*>(records), r.light, r.near_bits, r.far_bits);
+    r.near_code = hn::And(r.near_bits, hn::Set(kW, ML_DEPTH_CODE_MAX));
+    r.far_code = hn::And(r.far_bits, hn::Set(kW, ML_DEPTH_CODE_MAX));
+    return r;
+}
+
+// Counts the extents below 2^bits and finds the largest of them. Behind the last one are those that are below none.
+HWY_INLINE void count_below(const std::uint32_t* values, std::uint32_t count, std::uint32_t bits, Extents& extents) {
+    const Words limit = hn::Set(kW, 1u << bits);
+    Words largest = hn::Zero(kW);
+    std::size_t below = 0;
+    for (std::uint32_t i = 0; i < count; i += static_cast<std::uint32_t>(hn::Lanes(kW))) {
+        const Words v = hn::LoadU(kW, values + i);
+        const auto mask = v < limit;
+        below += hn::CountTrue(kW, mask);
+        largest = hn::Max(largest, hn::IfThenElseZero(mask, v));
+    }
+    extents.counts[bits] = static_cast<std::uint32_t>(below);
+    extents.largest[bits] = hn::GetLane(hn::MaxOfLanes(kW, largest));
+}
+
+} // namespace
+
+Extents measure_extents(const RecordRun* runs, std::uint32_t run_count, std::uint32_t count, std::uint32_t* values) {
+    const auto lanes = static_cast<std::uint32_t>(hn::Lanes(kW));
+    const Words nothing = hn::Set(kW, ~0u);
+    Words base = nothing;
+    Words last = hn::Zero(kW);
+    Words least = nothing;
+    Words most = hn::Zero(kW);
+    std::uint32_t* out = values;
+    for (std::uint32_t k = 0; k < run_count; ++k) {
+        const RecordRun run = runs[k];
+        prefetch_ahead(runs, run_count, k);
+        for (std::uint32_t i = 0; i < run.count; i += lanes) {
+            const RecordLanes r = load_records(run.records + i);
+            const auto present = hn::FirstN(kW, run.count - i);
+            const Words extent = r.far_code - r.near_code;
+            base = hn::Min(base, hn::IfThenElse(present, r.near_code, nothing));
+            last = hn::Max(last, hn::IfThenElseZero(present, r.far_code));
+            most = hn::Max(most, hn::IfThenElseZero(present, extent));
+            least = hn::Min(least, hn::IfThenElse(present, extent, nothing));
+            hn::StoreU(extent, kW, out + i);
+        }
+        out += run.count;
+    }
+    hn::StoreU(nothing, kW, out); // below no limit
+    Extents extents = {hn::GetLane(hn::MinOfLanes(kW, base)), hn::GetLane(hn::MaxOfLanes(kW, last)), {}, {}};
+    const std::uint32_t largest = hn::GetLane(hn::MaxOfLanes(kW, most));
+    const auto first_bits = static_cast<std::uint32_t>(std::bit_width(hn::GetLane(hn::MinOfLanes(kW, least))));
+    const auto end_bits = static_cast<std::uint32_t>(std::bit_width(largest));
+    if (count > kFlatReferences)
+        for (std::uint32_t bits = first_bits; bits < end_bits; ++bits) count_below(values, count, bits, extents);
+    for (std::uint32_t bits = end_bits; bits < 26; ++bits) {
+        extents.counts[bits] = count;
+        extents.largest[bits] = largest;
     }
     return extents;
 }
 
+void describe_records(const WindowTile& tile, std::uint32_t run_count, const TileScratch& scratch) {
+    const Words base = hn::Set(kW, tile.base_code);
+    const Words limit = hn::Set(kW, 1u << tile.small_bits);
+    const Words slice_shift = hn::Set(kW, tile.form.slice_shift);
+    const Words small_shift = hn::Set(kW, tile.form.small_shift);
+    const Words large_shift = hn::Set(kW, tile.form.large_shift);
+    std::uint32_t at = 0;
+    for (std::uint32_t k = 0; k < run_count; ++k) {
+        const RecordRun run = scratch.runs[k];
+        prefetch_ahead(scratch.runs, run_count, k);
+        for (std::uint32_t i = 0; i < run.count; i += static_cast<std::uint32_t>(hn::Lanes(kW))) {
+            const RecordLanes r = load_records(run.records + i);
+            const auto small = r.far_code - r.near_code < limit;
+            const Words near_slice = hn::Shr(r.near_code - base, slice_shift);
+            const Words far_slice = hn::Shr(r.far_code - base, slice_shift);
+            const Words of_class = hn::IfThenElseZero(hn::Not(small), hn::Set(kW, kClassSlices));
+            hn::StoreU(r.light, kW, scratch.lights + at + i);
+            hn::StoreU(hn::Or(near_slice + of_class, hn::ShiftLeft<16>(far_slice + of_class)), kW,
+                       scratch.slices + at + i);
+            // ml_pack_bounds.
+            const Words shift = hn::IfThenElse(small, small_shift, large_shift);
+            const Words low = hn::Shr(r.near_code, shift);
+            const Words extent = hn::Shr(r.far_code, shift) - low;
+            const Words x = hn::ShiftLeft<16>(hn::ShiftRight<24>(r.near_bits));
+            const Words y = hn::And(r.far_bits, hn::Set(kW, 0xFF000000u));
+            const Words depth = hn::Or(hn::And(low, hn::Set(kW, 255)), hn::ShiftLeft<8>(extent));
+            hn::StoreU(hn::Or(hn::Or(depth, x), y), kW, scratch.bounds + at + i);
+        }
+        at += run.count;
+    }
+}
+
+} // namespace manylights::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace manylights::detail {
+
+HWY_EXPORT(measure_extents);
+HWY_EXPORT(describe_records);
+
+Extents measure_extents(const RecordRun* runs, std::uint32_t run_count, std::uint32_t count, std::uint32_t* values) {
+    return HWY_DYNAMIC_DISPATCH(measure_extents)(runs, run_count, count, values);
+}
+
+void describe_records(const WindowTile& tile, std::uint32_t run_count, const TileScratch& scratch) {
+    HWY_DYNAMIC_DISPATCH(describe_records)(tile, run_count, scratch);
+}
+
+namespace {
+
+constexpr std::uint32_t kExtentBits = 25; // 0 to 24 of them
+
 // Two classes: the ranges of fewer than small_bits bits, and the others; or one class, and large_count is 0.
 struct Classes {
-    int small_bits;
+    std::uint32_t small_bits;
     std::uint32_t small_count, large_count;
     std::uint32_t small_extent, large_extent; // the largest of the class
 };
 
-Classes split_at(const Extents& extents, int small_bits) {
-    Classes classes = {small_bits, 0, 0, 0, 0};
-    for (int bits = 0; bits < kExtentBits; ++bits) {
-        const bool small = bits < small_bits;
-        (small ? classes.small_count : classes.large_count) += extents.counts[bits];
-        std::uint32_t& largest = small ? classes.small_extent : classes.large_extent;
-        largest = std::max(largest, extents.largest[bits]);
-    }
-    return classes;
+// Those of so many bits and fewer are below 2^bits.
+Classes split_at(const Extents& extents, std::uint32_t small_bits) {
+    const std::uint32_t count = extents.counts[kExtentBits];
+    const std::uint32_t below = extents.counts[small_bits];
+    return {small_bits, below, count - below, extents.largest[small_bits],
+            below != count ? extents.largest[kExtentBits] : 0};
 }
 
 // A depth's window holds about all references of a class that begin within the class's largest extent of it: so many,
@@ -63,10 +169,11 @@ Classes choose_classes(const Extents& extents) {
     const Classes together = split_at(extents, kExtentBits);
     const std::uint64_t depth = extents.last_code - extents.base_code + 1;
     Classes best = together;
-    for (int bits = 1; bits < kExtentBits; ++bits) {
-        if (extents.counts[bits - 1] == 0) continue;
+    for (std::uint32_t bits = 0; bits < kExtentBits; ++bits) {
+        if (extents.counts[bits] == (bits != 0 ? extents.counts[bits - 1] : 0)) continue; // the same split again
         const Classes split = split_at(extents, bits);
-        if (split.large_count != 0 && checks_of(split) < checks_of(best)) best = split;
+        if (split.large_count == 0) break;
+        if (checks_of(split) < checks_of(best)) best = split;
     }
     return checks_of(best) + 2 * depth <= checks_of(together) ? best : together;
 }
@@ -125,33 +232,18 @@ MlTileForm choose_form(const Extents& extents, std::uint32_t count, Classes& cla
     return form;
 }
 
-// A counting sort by class and slice of the near end. Within a slice the order stays: that of the lights.
-void order(const WindowTile& tile, int small_bits, const WindowRecord* records, std::uint32_t count,
-           WindowRecord* ordered) {
-    std::uint32_t next[2 * ML_TILE_SLICES_MAX + 1] = {};
-    const auto key = [&](const WindowRecord& record) {
-        const bool small = static_cast<int>(std::bit_width(record.extent())) < small_bits;
-        return (small ? 0 : ML_TILE_SLICES_MAX) + slice_of_code(tile, record.near_code());
-    };
-    for (std::uint32_t i = 0; i < count; ++i) ++next[key(records[i]) + 1];
-    for (std::uint32_t k = 1; k <= 2 * ML_TILE_SLICES_MAX; ++k) next[k] += next[k - 1];
-    for (std::uint32_t i = 0; i < count; ++i) ordered[next[key(records[i])]++] = records[i];
-}
-
 } // namespace
 
-WindowTile cut_tile(const WindowRecord* records, std::uint32_t count, WindowRecord* ordered) {
-    const Extents extents = measure(records, count);
+WindowTile measure_tile(const RecordRun* runs, std::uint32_t run_count, std::uint32_t count, std::uint32_t* values) {
+    const Extents extents = measure_extents(runs, run_count, count, values);
     Classes classes{};
     WindowTile tile{};
     tile.base_code = extents.base_code;
+    tile.count = count;
     tile.form = choose_form(extents, count, classes);
-    tile.small_count = classes.small_count;
-    if (tile.form.last_slice == 0)
-        std::copy(records, records + count, ordered);
-    else
-        order(tile, classes.small_bits, records, count, ordered);
+    tile.small_bits = classes.small_bits;
     return tile;
 }
 
 } // namespace manylights::detail
+#endif

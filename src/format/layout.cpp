@@ -22,13 +22,6 @@ std::uint64_t tree_node_count(std::uint32_t light_count, std::uint32_t leaf_size
     return nodes;
 }
 
-MlUint pack_leaf(std::uint32_t light_count) { return ML_NODE_LEAF | (light_count << ML_NODE_COUNT_SHIFT) | 1u; }
-
-MlUint pack_inner(std::uint64_t light_count, std::uint32_t skip) {
-    const auto saturated = static_cast<std::uint32_t>(std::min<std::uint64_t>(light_count, ML_NODE_COUNT_MAX));
-    return (saturated << ML_NODE_COUNT_SHIFT) | skip;
-}
-
 ManylightsSizes sizes_of(const Counts& counts) {
     return {counts.views * sizeof(MlView), counts.slice_edges * sizeof(float), counts.cells * sizeof(MlCell),
             counts.nodes * sizeof(MlNode), counts.references * counts.reference_words * sizeof(MlUint)};

@@ -46,8 +46,11 @@ std::uint64_t tree_node_count(std::uint32_t light_count, std::uint32_t leaf_size
 // Nodes of a cell that holds a list: one leaf, or a run of them where the lights exceed kMaxLeafLights.
 inline std::uint32_t list_node_count(std::uint32_t light_count) { return divide_up(light_count, kMaxLeafLights); }
 
-MlUint pack_leaf(std::uint32_t light_count);
-MlUint pack_inner(std::uint64_t light_count, std::uint32_t skip); // the count saturates
+inline MlUint pack_leaf(std::uint32_t light_count) { return ML_NODE_LEAF | (light_count << ML_NODE_COUNT_SHIFT) | 1u; }
+// The count saturates.
+inline MlUint pack_inner(std::uint32_t light_count, std::uint32_t skip) {
+    return ((light_count < ML_NODE_COUNT_MAX ? light_count : ML_NODE_COUNT_MAX) << ML_NODE_COUNT_SHIFT) | skip;
+}
 
 // Words per reference: windows have bounds beside the light index.
 inline std::uint32_t reference_words(std::uint32_t structure) { return structure == ML_STRUCTURE_WINDOWS ? 2 : 1; }

@@ -33,8 +33,9 @@ struct Threads {
     }
 };
 
+// Lights enough for tasks of their own in every stage: eight blocks.
 TEST(Threads, AnyNumberOfWorkersWritesTheSameBytes) {
-    const auto spheres = make_lights(4000, 8, 50.0, 0.5, 6.0);
+    const auto spheres = make_lights(30000, 8, 50.0, 0.5, 6.0);
     for (const std::uint32_t structure : kStructures) {
         const BuilderPtr serial = make_builder(settings_of(structure));
         const std::string expected = build_frame(serial.get(), {make_view(), make_view()}, spheres).bytes();
@@ -77,6 +78,24 @@ TEST(Write, TwiceGivesTheSameBytes) {
         const ManylightsBuffers buffers = second.buffers();
         ASSERT_EQ(manylights_write(builder.get(), &buffers, nullptr), MANYLIGHTS_OK);
         EXPECT_EQ(second.bytes(), first.bytes());
+    }
+}
+
+// The room for records is judged by a sample, which does not see that these few lights take nearly all of it.
+TEST(Records, TakeTheRoomThatTheyNeed) {
+    constexpr std::uint32_t kFew = 60;
+    for (const std::uint32_t structure : kStructures) {
+        ManylightsSettings settings = settings_of(structure);
+        settings.tile_px = 8;
+        for (std::uint32_t at = 0; at < 200000; at += 25000) {
+            std::vector<ManylightsSphere> spheres(200000, {{0.0f, 0.0f, 100.0f}, 1.0f}); // behind the camera
+            for (std::uint32_t i = 0; i < kFew; ++i) spheres[at + i] = {{0.0f, 0.0f, -10.0f}, 1000.0f};
+            const BuilderPtr builder = make_builder(settings);
+            Frame frame = build_frame(builder.get(), {make_view()}, spheres);
+            ASSERT_EQ(validate(builder.get(), frame, 200000).status, MANYLIGHTS_OK);
+            ASSERT_EQ(lights_at(frame, 0, 160.5f, 90.5f, 10.0f).size(), kFew) << structure << " " << at;
+            ASSERT_EQ(lights_at(frame, 0, 319.5f, 0.5f, 200.0f).size(), kFew) << structure << " " << at;
+        }
     }
 }
 

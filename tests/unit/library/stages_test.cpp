@@ -1,8 +1,7 @@
-// Sort, bin, decide and tree on their own.
+// Cells, decision and tree on their own.
 
-#include "src/build/bin.h"
-#include "src/build/decide.h"
-#include "src/build/sort.h"
+#include "src/build/bounds.h"
+#include "src/build/cells.h"
 #include "src/build/tree.h"
 #include "src/format/layout.h"
 #include "tests/unit/library/frame.h"
@@ -10,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 namespace manylights::test {
@@ -19,79 +18,120 @@ namespace {
 
 using namespace detail;
 
-const Allocator kMalloc = {[](void*, std::size_t bytes, std::size_t) { return std::malloc(bytes); },
-                           [](void*, void* memory, std::size_t) { std::free(memory); }, nullptr};
+// A tile's records, and the scratch that its cells are made in. Runs of awkward lengths.
+class TileOfCells {
+  public:
+    explicit TileOfCells(const std::vector<Interval>& depths) : count_(static_cast<std::uint32_t>(depths.size())) {
+        const std::size_t room = count_ + kLanePadding;
+        records_.resize(room);
+        words_.resize(4 * room);
+        floats_.resize(6 * room);
+        for (std::uint32_t i = 0; i < count_; ++i)
+            records_[i] = {i, std::bit_cast<std::uint32_t>(static_cast<float>(depths[i].low)),
+                           std::bit_cast<std::uint32_t>(static_cast<float>(depths[i].high))};
+        for (std::uint32_t at = 0; at < count_; at += runs_.back().count)
+            runs_.push_back({records_.data() + at, std::min(1 + at % 21, count_ - at)});
+        const auto arrays = [&](std::size_t i) {
+            return DepthArrays{words_.data() + i * room, floats_.data() + 2 * i * room,
+                               floats_.data() + (2 * i + 1) * room};
+        };
+        scratch = {runs_.data(), arrays(0), arrays(1), arrays(2), words_.data() + 3 * room, nullptr};
+    }
 
-VisibleLight light_at(std::uint32_t index, float depth, float range = 1.0f) {
-    VisibleLight light{};
-    light.index = index;
-    light.center_depth = depth;
-    light.min_depth = depth - range;
-    light.max_depth = depth + range;
-    return light;
+    std::uint32_t count() const { return count_; }
+    std::uint32_t run_count() const { return static_cast<std::uint32_t>(runs_.size()); }
+
+    CellScratch scratch{};
+
+  private:
+    std::uint32_t count_;
+    std::vector<TileRecord> records_;
+    std::vector<RecordRun> runs_;
+    std::vector<std::uint32_t> words_;
+    std::vector<float> floats_;
+};
+
+std::vector<Interval> random_depths(std::uint32_t count, double farthest) {
+    Random random(count);
+    std::vector<Interval> depths(count);
+    for (Interval& each : depths) {
+        const double middle = random.between(-5, farthest);
+        const double half = random.unit() < 0.05 ? random.between(0, farthest) : random.between(0.1, 4);
+        each = {static_cast<double>(static_cast<float>(middle - half)),
+                static_cast<double>(static_cast<float>(middle + half))};
+    }
+    return depths;
 }
 
-TEST(Sort, KeysFollowTheOrderOfFloats) {
-    const float ascending[] = {
-        -std::numeric_limits<float>::max(), -2.0f, -1.0f, -1e-40f, -0.0f, 0.0f, 1e-40f, 1.0f, 2.0f,
-        std::numeric_limits<float>::max()};
-    for (std::size_t i = 1; i < std::size(ascending); ++i)
-        EXPECT_LT(sortable_key(ascending[i - 1]), sortable_key(ascending[i]));
-}
+constexpr std::uint32_t kCounts[] = {1u, 2u, 15u, 16u, 17u, 100u, 1000u, 5000u};
 
-TEST(Sort, OrdersByDepthAndKeepsEqualDepthsInOrder) {
-    for (const std::uint32_t count : {0u, 1u, 2u, 1000u}) {
-        Array<VisibleLight> lights;
-        Array<VisibleLight> sorted;
-        Array<SortItem> items[2];
-        for (auto* array : {&lights, &sorted}) array->use(kMalloc);
-        for (auto& array : items) array.use(kMalloc);
-        Random random(count);
-        for (std::uint32_t i = 0; i < count; ++i)
-            ASSERT_TRUE(lights.push(light_at(i, std::floor(random.between(-50, 50)))));
-        ASSERT_TRUE(sorted.push(light_at(77, 0.0f))) << "of an earlier view";
-        ASSERT_TRUE(append_sorted(lights, items, sorted));
-        ASSERT_EQ(sorted.size(), count + 1);
-        EXPECT_EQ(sorted[0].index, 77u);
-        for (std::uint32_t i = 2; i <= count; ++i) {
-            const auto& a = sorted[i - 1];
-            const auto& b = sorted[i];
-            EXPECT_TRUE(a.center_depth < b.center_depth || (a.center_depth == b.center_depth && a.index < b.index));
+TEST(SortRecords, KeepsEachLightOnceInTheOrderOfDepths) {
+    for (const std::uint32_t count : kCounts) {
+        const auto depths = random_depths(count, 200.0);
+        TileOfCells tile(depths);
+        sort_records(tile.run_count(), count, tile.scratch);
+        std::vector<bool> seen(count, false);
+        double least = 1e300;
+        double most = -1e300;
+        for (const Interval& each : depths) {
+            least = std::min(least, each.low + each.high);
+            most = std::max(most, each.low + each.high);
+        }
+        const double bin = (most - least) / std::min(std::max(count, 16u) - 1.0, 4095.0);
+        double last = -1e300;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const std::uint32_t light = tile.scratch.sorted.light[i];
+            ASSERT_FALSE(seen[light]);
+            seen[light] = true;
+            ASSERT_EQ(static_cast<double>(tile.scratch.sorted.low[i]), depths[light].low);
+            ASSERT_EQ(static_cast<double>(tile.scratch.sorted.high[i]), depths[light].high);
+            ASSERT_GE(depths[light].low + depths[light].high, last - bin * 1.001);
+            last = std::max(last, depths[light].low + depths[light].high);
         }
     }
 }
 
-TEST(Bin, PutsALightIntoEachCellOfItsBox) {
-    Grid grid{};
-    grid.width = 100; // tiles of 16: 7 by 4
-    grid.height = 60;
-    lay_out(grid, 16, 3, 0);
-    EXPECT_EQ(grid.tiles_x, 7u);
-    EXPECT_EQ(grid.tiles_y, 4u);
-    EXPECT_EQ(grid.cell_count, 84u);
-    VisibleLight lights[2] = {light_at(0, 1), light_at(1, 2)};
-    lights[0].first_px[0] = 15, lights[0].last_px[0] = 16; // tiles 0 and 1
-    lights[0].first_px[1] = 47, lights[0].last_px[1] = 47; // tile 2
-    lights[0].first_slice = 1, lights[0].last_slice = 2;
-    lights[1].last_px[0] = 99, lights[1].last_px[1] = 59;
-    lights[1].last_slice = 2;
-    grid.end_light = 2;
-    EXPECT_EQ(count_references(grid, lights, 1000), 4u + 84u);
-    EXPECT_GT(count_references(grid, lights, 2), 2u) << "stops, but says that there are more";
+// Endless depths among them: nothing is lost, whatever the order.
+TEST(SortRecords, TakesEveryDepth) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    constexpr double kMost = std::numeric_limits<float>::max();
+    TileOfCells tile(
+        {{-kInfinity, kInfinity}, {1, 2}, {-kMost, kMost}, {kMost, kInfinity}, {-kInfinity, -kMost}, {3, 3}});
+    sort_records(tile.run_count(), tile.count(), tile.scratch);
+    std::uint32_t seen = 0;
+    for (std::uint32_t i = 0; i < tile.count(); ++i) seen |= 1u << tile.scratch.sorted.light[i];
+    EXPECT_EQ(seen, 63u);
+}
 
-    Bins bins;
-    bins.offsets.use(kMalloc);
-    bins.ranks.use(kMalloc);
-    ASSERT_TRUE(fill_bins(&grid, 1, lights, 88, bins));
-    for (std::uint32_t cell = 0; cell < 84; ++cell) {
-        const std::uint32_t x = cell % 7;
-        const std::uint32_t y = cell / 7 % 4;
-        const std::uint32_t s = cell / 28;
-        const bool both = x <= 1 && y == 2 && s >= 1;
-        ASSERT_EQ(bins.count(cell), both ? 2u : 1u) << cell;
-        const std::uint32_t begin = bins.begin(cell);
-        ASSERT_EQ(bins.ranks[begin], both ? 0u : 1u);
-        ASSERT_EQ(bins.ranks[begin + bins.count(cell) - 1], 1u);
+// A slice's lights are those between slice_of of both ends, edges included.
+TEST(Slices, TakeTheLightsBetweenTheSlicesOfTheirEnds) {
+    for (const std::uint32_t slice_count : {1u, 2u, 16u, 17u, 128u}) {
+        const Slices slices = make_slices(slice_count, 5.0f, 500.0f);
+        const SliceLanes lanes = make_slice_lanes(slices, 0.1, 500.0f, 600.0f);
+        auto depths = random_depths(1000, 600.0);
+        for (std::uint32_t s = 1; s < slice_count; ++s) {
+            const auto edge = static_cast<double>(slices.edges[s]);
+            const auto before = static_cast<double>(std::nextafter(slices.edges[s], 0.0f));
+            depths.insert(depths.end(), {{edge, edge}, {before, before}, {before, edge}});
+        }
+        TileOfCells tile(depths);
+        SliceSums sums;
+        sum_slices(lanes, tile.scratch.runs, tile.run_count(), sums);
+        sort_records(tile.run_count(), tile.count(), tile.scratch);
+        SliceRanges ranges;
+        find_ranges(lanes, tile.scratch.sorted, tile.count(), ranges);
+        for (std::uint32_t s = 0; s < slice_count; ++s) {
+            std::vector<std::uint32_t> expected;
+            for (std::uint32_t i = 0; i < tile.count(); ++i) {
+                const DepthArrays& sorted = tile.scratch.sorted;
+                if (slice_of(slices, sorted.low[i]) <= s && s <= slice_of(slices, sorted.high[i]))
+                    expected.push_back(sorted.light[i]);
+            }
+            const std::uint32_t picked =
+                pick_slice(lanes, s, tile.scratch.sorted, ranges.first[s], ranges.end[s], tile.scratch.cell);
+            ASSERT_EQ(sums.counts[s], expected.size()) << slice_count << " " << s;
+            ASSERT_EQ(std::vector(tile.scratch.cell.light, tile.scratch.cell.light + picked), expected);
+        }
     }
 }
 
@@ -115,8 +155,7 @@ TEST(TreeShape, FitsThePackedFields) {
 }
 
 struct BuiltTree {
-    std::vector<VisibleLight> lights;
-    std::vector<std::uint32_t> ranks;
+    std::vector<float> low, high;
     std::vector<MlNode> nodes;
 };
 
@@ -124,12 +163,13 @@ BuiltTree build_tree(std::uint32_t count, std::uint32_t leaf_size) {
     BuiltTree built;
     Random random(count);
     for (std::uint32_t i = 0; i < count; ++i) {
-        built.lights.push_back(light_at(i, static_cast<float>(i), random.between(0.1, 3)));
-        built.ranks.push_back(i);
+        const float range = random.between(0.1, 3);
+        built.low.push_back(static_cast<float>(i) - range);
+        built.high.push_back(static_cast<float>(i) + range);
     }
     built.nodes.resize(tree_node_count(count, leaf_size));
     std::vector<DepthSpan> heap(2 * std::size_t{tree_shape(count, leaf_size).leaf_count});
-    const CellLights cell = {built.lights.data(), built.ranks.data(), count, 100};
+    const CellLights cell = {built.low.data(), built.high.data(), count, 100};
     EXPECT_EQ(write_trees(cell, leaf_size, heap.data(), built.nodes.data()), built.nodes.data() + built.nodes.size());
     return built;
 }
@@ -159,8 +199,8 @@ TEST(Tree, NodesAreTheUnionsOfTheirLights) {
             float low = std::numeric_limits<float>::infinity();
             float high = -low;
             for (std::uint32_t i = 0; i < ml_node_light_count(node.bits); ++i) {
-                low = std::min(low, built.lights[node.first - 100 + i].min_depth);
-                high = std::max(high, built.lights[node.first - 100 + i].max_depth);
+                low = std::min(low, built.low[node.first - 100 + i]);
+                high = std::max(high, built.high[node.first - 100 + i]);
             }
             EXPECT_EQ(node.min_depth, low);
             EXPECT_EQ(node.max_depth, high);
@@ -184,7 +224,7 @@ TEST(Tree, SkippingEverythingEndsAtTheEnd) {
 TEST(List, SplitsIntoLeavesThatCountTheirLights) {
     BuiltTree built = build_tree(65537, 4);
     std::vector<MlNode> nodes(2);
-    const CellLights cell = {built.lights.data(), built.ranks.data(), 65537, 100};
+    const CellLights cell = {built.low.data(), built.high.data(), 65537, 100};
     EXPECT_EQ(write_list(cell, nodes.data()), nodes.data() + 2);
     EXPECT_EQ(ml_node_light_count(nodes[0].bits), 65535u);
     EXPECT_EQ(ml_node_light_count(nodes[1].bits), 2u);
@@ -194,17 +234,20 @@ TEST(List, SplitsIntoLeavesThatCountTheirLights) {
 
 // Half of a cell from 10 to 30 is 10: lights that cover less of it, on average, make a tree.
 TEST(Decide, ComparesTheClippedMeanWithHalfTheCell) {
-    const std::uint32_t ranks[] = {0, 1};
-    const auto prefers = [&](float range_a, float range_b) {
-        const VisibleLight lights[] = {light_at(0, 20, range_a), light_at(1, 20, range_b)};
-        return prefers_tree(lights, ranks, 2, 10.0f, 30.0f);
+    SliceLanes lanes = make_slice_lanes(make_slices(1, 5.0f, 500.0f), 10.0, 30.0f, 0.0f);
+    ASSERT_EQ(lanes.near_depth[0], 10.0f);
+    ASSERT_EQ(lanes.far_depth[0], 30.0f);
+    const auto prefers = [&](const std::vector<Interval>& depths) {
+        TileOfCells tile(depths);
+        SliceSums sums;
+        sum_slices(lanes, tile.scratch.runs, tile.run_count(), sums);
+        return prefers_tree(sums.counts[0], sums.depths[0], 10.0f, 30.0f);
     };
-    EXPECT_TRUE(prefers(4.9f, 4.9f));
-    EXPECT_FALSE(prefers(5.0f, 5.0f)) << "strict";
-    EXPECT_FALSE(prefers(1000.0f, 1.0f)) << "clipped to 20 and 2";
-    EXPECT_TRUE(prefers(9.0f, 0.9f));
-    const VisibleLight outside[] = {light_at(0, 50, 1), light_at(1, 50, 1)};
-    EXPECT_TRUE(prefers_tree(outside, ranks, 2, 10.0f, 30.0f)) << "clipped to nothing";
+    EXPECT_TRUE(prefers({{15.25, 24.75}, {15.25, 24.75}}));
+    EXPECT_FALSE(prefers({{15, 25}, {15, 25}})) << "strict";
+    EXPECT_FALSE(prefers({{-1000, 1000}, {19, 21}})) << "clipped to 20 and 2";
+    EXPECT_TRUE(prefers({{11, 29}, {19.25, 20.75}}));
+    EXPECT_TRUE(prefers({{49, 51}, {49, 51}})) << "clipped to nothing";
 }
 
 } // namespace

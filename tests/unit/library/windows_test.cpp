@@ -1,6 +1,6 @@
 // Depth windows on their own: the scale of depth codes, the cut of a tile, and which tile sizes are chosen.
 
-#include "src/build/builder.h"
+#include "src/build/record_stages.h"
 #include "tests/unit/library/frame.h"
 
 #include <gtest/gtest.h>
@@ -15,9 +15,9 @@ namespace {
 using namespace detail;
 
 float scale_for(const std::vector<float>& near_ends) {
-    std::vector<VisibleLight> lights(near_ends.size());
-    for (std::size_t i = 0; i < lights.size(); ++i) lights[i].min_depth = near_ends[i];
-    return choose_depth_scale(lights.data(), lights.size());
+    std::uint32_t exponents[256] = {};
+    for (const float depth : near_ends) ++exponents[depth > 0.0f ? std::bit_cast<std::uint32_t>(depth) >> 23 : 0];
+    return choose_depth_scale(exponents);
 }
 
 TEST(DepthScale, GivesNearlyAllNearEndsCodesBelow18Bits) {
@@ -45,37 +45,76 @@ TEST(DepthScale, IsAPlainPowerOfTwoForEveryDepth) {
 }
 
 // Records whose extents have between low_bits and high_bits bits.
-std::vector<WindowRecord> random_records(Random& random, std::uint32_t count, std::uint32_t span, int low_bits,
-                                         int high_bits) {
-    std::vector<WindowRecord> records(count);
+std::vector<TileRecord> random_records(Random& random, std::uint32_t count, std::uint32_t span, int low_bits,
+                                       int high_bits) {
+    std::vector<TileRecord> records(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         const auto near_code = static_cast<std::uint32_t>(random.bits() % span);
         const auto bits = low_bits + static_cast<int>(random.bits() % static_cast<unsigned>(high_bits - low_bits + 1));
         const auto extent = static_cast<std::uint32_t>(random.bits() % (std::uint64_t{1} << bits));
-        records[i] = {i, near_code, std::min(near_code + extent, ML_DEPTH_CODE_MAX), 0};
+        records[i] = {i, near_code, std::min(near_code + extent, ML_DEPTH_CODE_MAX)};
     }
     return records;
 }
 
+// A tile cut and put into order as plan and write do it.
+struct CutTile {
+    WindowTile tile;
+    std::uint32_t small_count;
+    std::vector<WindowReference> ordered;
+    TileWindows windows;
+};
+
+// In runs of awkward lengths.
+CutTile cut_tile(std::vector<TileRecord> records) {
+    const auto count = static_cast<std::uint32_t>(records.size());
+    const std::size_t room = count + kLanePadding;
+    records.resize(room);
+    std::vector<std::uint32_t> words(4 * room);
+    std::vector<RecordRun> runs;
+    for (std::uint32_t at = 0; at < count; at += runs.back().count)
+        runs.push_back({records.data() + at, std::min(1 + at % 21, count - at)});
+    CutTile cut{{}, 0, std::vector<WindowReference>(count), {}};
+    const TileScratch scratch = {
+        runs.data(),       words.data(), words.data() + room, words.data() + 2 * room, words.data() + 3 * room,
+        cut.ordered.data()};
+    const auto run_count = static_cast<std::uint32_t>(runs.size());
+    cut.tile = measure_tile(runs.data(), run_count, count, scratch.extents);
+    describe_records(cut.tile, run_count, scratch);
+    order_records(cut.tile, scratch, cut.windows);
+    for (std::uint32_t i = 0; i < count; ++i) cut.small_count += records[i].extent() < 1u << cut.tile.small_bits;
+    return cut;
+}
+
 // What the layout demands of a form, whatever the records are.
-void expect_sound(const WindowTile& tile, const std::vector<WindowRecord>& ordered) {
-    const auto count = static_cast<std::uint32_t>(ordered.size());
+void expect_sound(const CutTile& cut, const std::vector<TileRecord>& records) {
+    const WindowTile& tile = cut.tile;
+    const auto count = static_cast<std::uint32_t>(records.size());
     EXPECT_NE(ml_pack_tile_form(tile.form), 0u);
     EXPECT_LT(tile.form.last_slice, ML_TILE_SLICES_MAX);
     EXPECT_EQ(tile.form.wide, count > 65535 ? 1u : 0u);
-    EXPECT_EQ(tile.form.two_classes, tile.small_count < count ? 1u : 0u);
+    EXPECT_EQ(tile.form.two_classes, cut.small_count < count ? 1u : 0u);
     EXPECT_TRUE(tile.form.flat_count == 0 || tile.form.flat_count == count);
     std::vector<bool> seen(count, false);
     for (std::uint32_t i = 0; i < count; ++i) {
-        const WindowRecord& record = ordered[i];
-        ASSERT_FALSE(seen[record.light]);
-        seen[record.light] = true;
+        ASSERT_FALSE(seen[cut.ordered[i].light]);
+        seen[cut.ordered[i].light] = true;
+        const TileRecord& record = records[cut.ordered[i].light];
         ASSERT_GE(record.near_code(), tile.base_code);
         ASSERT_LE(slice_of_code(tile, record.far_code()), tile.form.last_slice);
-        const bool has_one_before = i != 0 && i != tile.small_count && tile.form.last_slice > 0;
-        ASSERT_TRUE(!has_one_before ||
-                    slice_of_code(tile, ordered[i - 1].near_code()) <= slice_of_code(tile, record.near_code()));
-        const std::uint32_t shift = i < tile.small_count ? tile.form.small_shift : tile.form.large_shift;
+        const bool has_one_before = i != 0 && i != cut.small_count;
+        ASSERT_TRUE(!has_one_before || slice_of_code(tile, records[cut.ordered[i - 1].light].near_code()) <=
+                                           slice_of_code(tile, record.near_code()));
+        const bool small = i < cut.small_count;
+        ASSERT_EQ(small, record.extent() < 1u << tile.small_bits);
+        for (std::uint32_t s = slice_of_code(tile, record.near_code()); s <= slice_of_code(tile, record.far_code());
+             ++s) {
+            const std::uint32_t key = small ? s : kClassSlices + s;
+            ASSERT_TRUE(cut.windows.first[key] <= i && i < cut.windows.end[key]);
+        }
+        const std::uint32_t shift = small ? tile.form.small_shift : tile.form.large_shift;
+        ASSERT_EQ(cut.ordered[i].bounds & 255u, (record.near_code() >> shift) & 255u);
+        ASSERT_EQ((cut.ordered[i].bounds >> 8) & 255u, (record.far_code() >> shift) - (record.near_code() >> shift));
         // From any depth of the record's window, no unit of the 256 is met twice.
         const std::uint32_t slice = 1u << tile.form.slice_shift;
         ASSERT_LE((record.extent() >> shift) + 1 + ((2 * slice) >> shift), 255u);
@@ -89,11 +128,10 @@ TEST(CutTile, KeepsEveryRecordOnceInOrderAndInBounds) {
         for (const std::uint32_t span : {1u, 2u, 300u, 1u << 18, 1u << 24}) {
             for (const int high_bits : {0, 4, 12, 24}) {
                 const auto records = random_records(random, count, span, 0, high_bits);
-                std::vector<WindowRecord> ordered(count);
-                const WindowTile tile = cut_tile(records.data(), count, ordered.data());
-                expect_sound(tile, ordered);
+                const CutTile cut = cut_tile(records);
+                expect_sound(cut, records);
                 ASSERT_FALSE(HasFailure()) << count << " records, span " << span << ", bits " << high_bits;
-                two_classes += tile.form.two_classes != 0 ? 1 : 0;
+                two_classes += cut.tile.form.two_classes != 0 ? 1 : 0;
             }
         }
     }
@@ -105,26 +143,41 @@ TEST(CutTile, SplitsClassesAndSlicesWhereThatSavesChecks) {
     const auto cut = [&](std::uint32_t count, std::uint32_t large_count) {
         auto records = random_records(random, count, 1u << 16, 6, 6);
         for (std::uint32_t i = 0; i < large_count; ++i) records[i].far_bits = records[i].near_bits + (1u << 15);
-        std::vector<WindowRecord> ordered(count);
-        return cut_tile(records.data(), count, ordered.data());
+        return cut_tile(records);
     };
-    const WindowTile flat = cut(8, 1);
+    const WindowTile flat = cut(8, 1).tile;
     EXPECT_EQ(flat.form.flat_count, 8u);
     EXPECT_EQ(ml_entry_cell_count(flat.form), 0u);
-    const WindowTile one_class = cut(200, 0);
+    const WindowTile one_class = cut(200, 0).tile;
     EXPECT_EQ(one_class.form.two_classes, 0u);
     EXPECT_GE(one_class.form.last_slice + 1, 128u);
     EXPECT_LE(one_class.form.last_slice + 1, ML_TILE_SLICES_MAX);
-    const WindowTile few = cut(20, 0);
+    const WindowTile few = cut(20, 0).tile;
     EXPECT_GE(few.form.last_slice + 1, 15u) << "half of 3/2 of the references at least";
     EXPECT_LE(few.form.last_slice + 1, 30u);
-    const WindowTile split = cut(200, 20);
-    EXPECT_EQ(split.form.two_classes, 1u);
+    const CutTile split = cut(200, 20);
+    EXPECT_EQ(split.tile.form.two_classes, 1u);
     EXPECT_EQ(split.small_count, 180u);
-    EXPECT_LT(split.form.small_shift, split.form.large_shift);
-    EXPECT_EQ(cut(200, 200).form.two_classes, 0u);
-    const WindowTile many = cut(5000, 0);
+    EXPECT_LT(split.tile.form.small_shift, split.tile.form.large_shift);
+    EXPECT_EQ(cut(200, 200).tile.form.two_classes, 0u);
+    const WindowTile many = cut(5000, 0).tile;
     EXPECT_GE(many.form.last_slice + 1, 128u);
+}
+
+struct FoundRecord {
+    TileRecord record;
+    std::uint32_t tile;
+};
+
+std::vector<FoundRecord> records_of(ManylightsBuilder& builder) {
+    std::vector<FoundRecord> found;
+    const TileScratch scratch = tile_scratch(builder, 0);
+    for (std::uint32_t t = 0; t < builder.windows.tiles.size(); ++t) {
+        const std::uint32_t runs = list_runs(builder.records, t, scratch.runs);
+        for (std::uint32_t k = 0; k < runs; ++k)
+            for (std::uint32_t i = 0; i < scratch.runs[k].count; ++i) found.push_back({scratch.runs[k].records[i], t});
+    }
+    return found;
 }
 
 // Every reference of a frame, asked for by the shader's own query at the ends of its range, in its corner steps.
@@ -135,18 +188,18 @@ TEST(Windows, HandOutEachReferenceFromItsFirstDepthCodeToItsLast) {
         const BuilderPtr builder = make_builder(settings);
         const auto spheres = make_lights(3000, tile_px, 60.0, 0.2, 12.0);
         const Frame frame = build_frame(builder.get(), {make_view()}, spheres);
-        const Windows& windows = builder->windows;
         const MlView& view = frame.views[0];
-        ASSERT_GT(windows.found.size(), 500u);
+        const std::vector<FoundRecord> found = records_of(*builder);
+        ASSERT_GT(found.size(), 500u);
         std::uint64_t codes = 0;
-        for (std::size_t i = 0; i < windows.found.size(); ++i) {
-            const WindowRecord& record = windows.found[i];
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            const TileRecord& record = found[i].record;
             const auto pixel = [&](std::uint32_t tile, std::uint32_t step, std::uint32_t size) {
                 const std::uint32_t px = tile * tile_px + (step * tile_px + ML_TILE_STEPS - 1) / ML_TILE_STEPS;
                 return static_cast<float>(std::min(px, size - 1)) + 0.5f;
             };
-            const float x = pixel(record.tile % view.tiles_x, record.near_bits >> 28, view.width);
-            const float y = pixel(record.tile / view.tiles_x, (record.far_bits >> 24) & 15, view.height);
+            const float x = pixel(found[i].tile % view.tiles_x, record.near_bits >> 28, view.width);
+            const float y = pixel(found[i].tile / view.tiles_x, (record.far_bits >> 24) & 15, view.height);
             for (const std::uint32_t code : {record.near_code(), record.far_code()}) {
                 if (code == ML_DEPTH_CODE_MAX) continue;
                 const auto lights = lights_at(frame, 0, x, y, static_cast<float>(code) / view.depth_scale);
@@ -168,8 +221,7 @@ TEST(Windows, WidenDepthsByWhatACallersMayBeOff) {
         return static_cast<std::uint32_t>(depth * static_cast<double>(frame.views[0].depth_scale));
     };
     int narrow = 0;
-    for (std::size_t i = 0; i < builder->windows.found.size(); ++i) {
-        const WindowRecord& record = builder->windows.found[i];
+    for (const auto& [record, tile] : records_of(*builder)) {
         const double depth = -static_cast<double>(spheres[record.light].center[2]);
         const double radius = culling_radius(1.0, 0.0, depth, depth, 0.0);
         ASSERT_LE(record.near_code(), code((depth - radius) * (1.0 - 0x1p-20)));

@@ -1,0 +1,109 @@
+// Records on their way to their tiles' chunks: included once per instruction set, see lanes.h.
+#if defined(MANYLIGHTS_RECORD_EMITTER_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef MANYLIGHTS_RECORD_EMITTER_INL_H
+#undef MANYLIGHTS_RECORD_EMITTER_INL_H
+#else
+#define MANYLIGHTS_RECORD_EMITTER_INL_H
+#endif
+
+#include "src/build/tile_records.h"
+
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace manylights::detail::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Floats = hn::Vec<hn::ScalableTag<float>>;
+using Words = hn::Vec<hn::ScalableTag<std::uint32_t>>;
+using Ints = hn::Vec<hn::ScalableTag<std::int32_t>>;
+using Mask = hn::Mask<hn::ScalableTag<float>>;
+constexpr hn::ScalableTag<float> kF;
+constexpr hn::ScalableTag<std::uint32_t> kW;
+constexpr hn::ScalableTag<std::int32_t> kI;
+
+// As many lights take each step together whatever a vector holds: a tile's order depends on it.
+constexpr std::uint32_t kTogether = 16;
+constexpr std::uint32_t kVectors = kTogether / static_cast<std::uint32_t>(hn::MaxLanes(kF));
+static_assert(kVectors * hn::MaxLanes(kF) == kTogether);
+
+HWY_INLINE Floats gather(const float* from, Ints positions) { return hn::GatherIndex(kF, from, positions); }
+HWY_INLINE Words gather(const std::uint32_t* from, Ints positions) {
+    return hn::BitCast(kW, hn::GatherIndex(kI, reinterpret_cast<const std::int32_t*>(from), positions));
+}
+
+// Chunks are begun in order: one that will be soon is on its way to the cache.
+constexpr std::uint32_t kChunksAhead = 8;
+
+// Where the tile's next record goes: into a new chunk. Once there are no more, chunk 0 takes all.
+HWY_NOINLINE std::uint32_t open_chunk(RecordPool& pool, std::uint32_t tile, std::uint32_t cursor) {
+    const std::uint32_t chunk = pool.used < pool.capacity ? pool.used : 0;
+    ++pool.used;
+    const TileRecord* const soon = pool.records + std::size_t{chunk + kChunksAhead} * kChunkRecords;
+    for (std::uint32_t i = 0; i < kChunkRecords; i += 64 / sizeof(TileRecord)) hwy::Prefetch(soon + i);
+    if (cursor == 0)
+        pool.firsts[tile] = chunk;
+    else
+        pool.next[(cursor - 1) / kChunkRecords] = chunk;
+    ++pool.chunks[tile];
+    return chunk * kChunkRecords;
+}
+
+// The records of a tile keep their order.
+HWY_NOINLINE void flush(const RecordBuffer from, std::uint32_t count, RecordPool& pool) {
+    std::uint32_t* const cursors = pool.cursors;
+    TileRecord* const records = pool.records;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        std::uint32_t at = cursors[from.tile[i]];
+        if (at % kChunkRecords == 0) at = open_chunk(pool, from.tile[i], at);
+        cursors[from.tile[i]] = at + 1;
+        records[at] = {from.light[i], from.near_bits[i], from.far_bits[i]};
+    }
+}
+
+// Collects records, and flushes them when there are many.
+class Emitter {
+  public:
+    Emitter(const RecordBuffer& buffer, RecordPool& pool) : buffer_(buffer), pool_(pool) {}
+    HWY_INLINE const RecordBuffer& buffer() const { return buffer_; }
+
+    // What is stored behind the kept ones counts for nothing.
+    HWY_INLINE void add(Words tile, Words light, Words near_bits, Words far_bits, Mask kept) {
+        const auto kept_words = hn::RebindMask(kW, kept);
+        hn::StoreU(hn::Compress(tile, kept_words), kW, buffer_.tile + count_);
+        hn::StoreU(hn::Compress(light, kept_words), kW, buffer_.light + count_);
+        hn::StoreU(hn::Compress(near_bits, kept_words), kW, buffer_.near_bits + count_);
+        hn::StoreU(hn::Compress(far_bits, kept_words), kW, buffer_.far_bits + count_);
+        count_ += static_cast<std::uint32_t>(hn::CountTrue(kF, kept));
+        if (count_ >= kBufferedRecords) finish();
+    }
+    // The first ones of the lanes.
+    HWY_INLINE void add_first(Words tile, Words light, Words near_bits, Words far_bits, std::uint32_t kept) {
+        hn::StoreU(tile, kW, buffer_.tile + count_);
+        hn::StoreU(light, kW, buffer_.light + count_);
+        hn::StoreU(near_bits, kW, buffer_.near_bits + count_);
+        hn::StoreU(far_bits, kW, buffer_.far_bits + count_);
+        count_ += kept;
+        if (count_ >= kBufferedRecords) finish();
+    }
+    HWY_INLINE std::uint64_t finish() {
+        flush(buffer_, count_, pool_);
+        records_ += count_;
+        count_ = 0;
+        return records_;
+    }
+
+  private:
+    const RecordBuffer buffer_;
+    RecordPool& pool_;
+    std::uint32_t count_ = 0;
+    std::uint64_t records_ = 0;
+};
+
+} // namespace
+} // namespace manylights::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,40 @@
+#pragma once
+// The stages that work on all lights and tiles of a builder.
+
+#include "src/build/builder.h"
+#include "src/build/tasks.h"
+
+#include <cstdint>
+
+namespace manylights::detail {
+
+// What a sample of the lights says about all of them. False: out of memory.
+[[nodiscard]] bool take_sample(ManylightsBuilder& builder, const ManylightsLights& lights);
+
+// After that: the tile size to begin with; and about how many tiles of a size the lights' pixels span, all together.
+std::uint32_t first_tile_px(ManylightsBuilder& builder);
+std::uint64_t estimate_tiles(ManylightsBuilder& builder, std::uint32_t tile_px);
+
+// The planes of a view's columns and rows at its tile size. False: out of memory.
+[[nodiscard]] bool make_narrow_views(ManylightsBuilder& builder, NarrowView (&views)[kMaxViews]);
+
+// Culls all lights and records them in their tiles. Not all records are there where they would be more than limit:
+// kOverBudget, or kTooLarge where there is nothing coarser.
+Fit collect_records(ManylightsBuilder& builder, const ManylightsLights& lights, std::uint64_t limit, bool has_to_do);
+
+// The work at one tile size, for windows and for structures with depth slices. has_to_do: no larger tiles are left,
+// only what no buffer can hold stops it.
+Fit arrange_windows(ManylightsBuilder& builder, const ManylightsLights& lights, bool has_to_do);
+Fit arrange_cells(ManylightsBuilder& builder, const ManylightsLights& lights, bool has_to_do);
+
+// Scratch of a task that works on tiles.
+TileScratch tile_scratch(ManylightsBuilder& builder, std::uint32_t task);
+CellScratch cell_scratch(ManylightsBuilder& builder, std::uint32_t task);
+
+// Parts of write: these tiles' cells, nodes and references.
+void write_window_tiles(ManylightsBuilder& builder, std::uint32_t task, std::uint64_t begin, std::uint64_t end,
+                        const ManylightsBuffers& buffers);
+void write_cell_tiles(ManylightsBuilder& builder, std::uint32_t task, std::uint64_t begin, std::uint64_t end,
+                      const ManylightsBuffers& buffers);
+
+} // namespace manylights::detail

@@ -1,0 +1,215 @@
+// Lights to records: each task culls, spans and narrows its blocks of lights, and keeps the records in chunks per tile.
+#include "src/build/record_stages.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace manylights::detail {
+
+namespace {
+
+constexpr std::size_t kBufferRoom = kBufferedRecords + 2 * kLanePadding;
+constexpr std::size_t kTaskWords = 6 * std::size_t{kBlockRoom} + kSpanGroups + 4 * kBufferRoom;
+constexpr std::uint64_t kMostChunks = UINT32_MAX / kChunkRecords;
+
+std::size_t row_room(const ManylightsBuilder& builder) {
+    std::uint32_t rows = 0;
+    for (std::uint32_t v = 0; v < builder.view_count; ++v) rows = std::max(rows, builder.grids[v].tiles_y);
+    return rows + kLanePadding;
+}
+
+std::size_t task_floats(const ManylightsBuilder& builder) {
+    return 4 * std::size_t{kBlockRoom} + 4 * row_room(builder);
+}
+
+// Enough lights for each to pay for its own chains of all tiles.
+std::uint32_t light_task_count(const ManylightsBuilder& builder, std::uint64_t blocks, std::uint64_t estimate) {
+    const std::uint32_t tasks = task_count_for(builder.settings, blocks, 1);
+    const std::uint64_t affordable = 4 * estimate / std::max<std::uint64_t>(builder.records.tile_count, 1);
+    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(affordable, 1, tasks));
+}
+
+// A block's scratch in a task: what stays of its lights is their indices.
+LightBlock block_of(ManylightsBuilder& builder, std::uint32_t task, View& view, std::uint64_t block) {
+    float* const floats = builder.records.task_floats.data() + task_floats(builder) * task;
+    std::uint32_t* const words = builder.records.task_words.data() + kTaskWords * task;
+    return {floats,
+            floats + kBlockRoom,
+            floats + 2 * kBlockRoom,
+            floats + 3 * kBlockRoom,
+            view.lights.index.data() + block * kBlockRoom,
+            words,
+            words + kBlockRoom,
+            0};
+}
+
+BlockSpans spans_of(ManylightsBuilder& builder, std::uint32_t task) {
+    std::uint32_t* const words = builder.records.task_words.data() + kTaskWords * task + 2 * kBlockRoom;
+    return {words, words + kBlockRoom, words + 2 * kBlockRoom, words + 3 * kBlockRoom, words + 4 * kBlockRoom};
+}
+
+RecordBuffer buffer_of(ManylightsBuilder& builder, std::uint32_t task) {
+    std::uint32_t* const words =
+        builder.records.task_words.data() + kTaskWords * task + 6 * std::size_t{kBlockRoom} + kSpanGroups;
+    const std::size_t room = row_room(builder);
+    float* const rows = builder.records.task_floats.data() + task_floats(builder) * task + 4 * kBlockRoom;
+    return {words, words + kBufferRoom, words + 2 * kBufferRoom, words + 3 * kBufferRoom,
+            rows,  rows + room,         rows + 2 * room,         rows + 3 * room};
+}
+
+RecordPool empty_pool(TileRecords& records, std::uint32_t task, std::uint32_t capacity) {
+    std::uint32_t* const chains = records.chains.data() + 3 * records.tile_count * task;
+    RecordPool pool = {records.records.data() + std::size_t{capacity} * kChunkRecords * task,
+                       records.next.data() + std::size_t{capacity} * task,
+                       chains,
+                       chains + 2 * records.tile_count,
+                       chains + records.tile_count,
+                       capacity,
+                       1};
+    std::memset(chains, 0, 2 * records.tile_count * sizeof(std::uint32_t)); // cursors and chunks
+    return pool;
+}
+
+struct CollectJob {
+    ManylightsBuilder& builder;
+    const ManylightsLights& lights;
+    std::uint64_t blocks;
+    std::uint32_t capacity;
+    ViewCull culls[kMaxViews];
+    NarrowView narrows[kMaxViews];
+    BoxView boxes[kMaxViews];
+    SpanView spans[kMaxViews];
+};
+
+void collect_task(const CollectJob& job, std::uint32_t task) {
+    ManylightsBuilder& builder = job.builder;
+    const auto task_count = static_cast<std::uint32_t>(builder.records.tasks.size());
+    RecordTask result = {empty_pool(builder.records, task, job.capacity), 0, {0, 0}, {}};
+    const BlockSpans spans = spans_of(builder, task);
+    const RecordBuffer buffer = buffer_of(builder, task);
+    const Part part = part_of(job.blocks, task, task_count);
+    for (std::uint64_t b = part.begin; b < part.end; ++b) {
+        Ignored bad{}; // the same for all views
+        for (std::uint32_t v = 0; v < builder.view_count; ++v) {
+            LightBlock block = block_of(builder, task, builder.views[v], b);
+            bad = cull_block(job.culls[v], block_span(job.lights, b), block);
+            builder.views[v].lights.counts[b] = block.count;
+            span_block(job.spans[v], block, spans);
+            result.records += has_windows(builder)
+                                  ? narrow_block(job.narrows[v], block, spans, buffer, result.pool)
+                                  : box_block(job.boxes[v], block, spans, buffer, result.pool, result.farthest[v]);
+        }
+        result.ignored = add_ignored(result.ignored, bad);
+    }
+    builder.records.tasks[task] = result;
+}
+
+bool make_room(ManylightsBuilder& builder, std::uint32_t task_count, std::uint64_t capacity) {
+    TileRecords& records = builder.records;
+    return records.tasks.resize(task_count) && records.records.resize(capacity * kChunkRecords * task_count) &&
+           records.next.resize(capacity * task_count) && records.chains.resize(3 * records.tile_count * task_count) &&
+           records.task_floats.resize(task_floats(builder) * task_count) &&
+           records.task_words.resize(kTaskWords * task_count);
+}
+
+// Chunks per task: what the sample lets expect, a chunk per tile that is begun, and a margin.
+std::uint64_t expected_chunks(const TileRecords& records, std::uint32_t task_count, std::uint64_t estimate) {
+    const std::uint64_t full = estimate / kChunkRecords / task_count;
+    return std::min(full + full / 8 + std::min(records.tile_count, estimate) + 64, kMostChunks);
+}
+
+// What spans more than this, compared with what may be, does not fit when it is narrowed either.
+constexpr std::uint64_t kNarrowsAway = 4;
+
+// False: out of memory.
+bool prepare_job(CollectJob& job) {
+    ManylightsBuilder& builder = job.builder;
+    if (has_windows(builder) && !make_narrow_views(builder, job.narrows)) return false;
+    for (std::uint32_t v = 0; v < builder.view_count; ++v) {
+        const Grid& grid = builder.grids[v];
+        job.culls[v] = make_view_cull(builder.views[v].camera, job.lights.motion_margin);
+        job.spans[v] = {grid.tile_px, grid.width - 1, grid.height - 1};
+        job.boxes[v] = {grid.tiles_x, static_cast<std::uint32_t>(grid.tile_offset)};
+        if (!builder.views[v].lights.resize(job.blocks)) return false;
+    }
+    return true;
+}
+
+// The chunks that the fullest task would have needed; counts the records.
+std::uint64_t run_job(const CollectJob& job, std::uint32_t task_count) {
+    TileRecords& records = job.builder.records;
+    run_tasks(job.builder.settings, task_count, [&](std::uint32_t task) { collect_task(job, task); });
+    std::uint64_t most_used = 0;
+    records.count = 0;
+    for (std::uint32_t task = 0; task < task_count; ++task) {
+        most_used = std::max<std::uint64_t>(most_used, records.tasks[task].pool.used);
+        records.count += records.tasks[task].records;
+    }
+    return most_used;
+}
+
+bool list_results(ManylightsBuilder& builder) {
+    builder.ignored = {};
+    for (std::size_t task = 0; task < builder.records.tasks.size(); ++task)
+        builder.ignored = add_ignored(builder.ignored, builder.records.tasks[task].ignored);
+    for (std::uint32_t v = 0; v < builder.view_count; ++v)
+        if (!list_visible(builder.views[v])) return false;
+    return true;
+}
+
+} // namespace
+
+void TileRecords::use(const Allocator& allocator) {
+    for (Array<float>* array : {&sample_floats, &planes, &task_floats}) array->use(allocator);
+    for (Array<std::uint32_t>* array : {&sample_words, &next, &chains, &task_words}) array->use(allocator);
+    sample_spheres.use(allocator);
+    tasks.use(allocator);
+    records.use(allocator);
+}
+
+// Where the room was too little, all that is known is how much it takes: the second time it suffices.
+Fit collect_records(ManylightsBuilder& builder, const ManylightsLights& lights, std::uint64_t limit, bool has_to_do) {
+    const Fit too_many = has_to_do ? Fit::kTooLarge : Fit::kOverBudget;
+    const std::uint64_t estimate = estimate_tiles(builder, builder.grids[0].tile_px);
+    if (!has_to_do && estimate / kNarrowsAway > limit) return too_many;
+    CollectJob job{builder, lights, block_count_for(lights.count), 0, {}, {}, {}, {}};
+    if (!prepare_job(job)) return Fit::kOutOfMemory;
+    const std::uint32_t task_count = light_task_count(builder, job.blocks, estimate);
+    std::uint64_t capacity = expected_chunks(builder.records, task_count, estimate);
+    for (;;) {
+        if (!make_room(builder, task_count, capacity)) return Fit::kOutOfMemory;
+        job.capacity = static_cast<std::uint32_t>(capacity);
+        const std::uint64_t most_used = run_job(job, task_count);
+        if (builder.records.count > limit || most_used > kMostChunks) return too_many;
+        if (most_used <= capacity) break;
+        capacity = std::min(most_used + most_used / 8, kMostChunks);
+    }
+    return list_results(builder) ? Fit::kFits : Fit::kOutOfMemory;
+}
+
+std::uint32_t tile_record_count(const TileRecords& records, std::uint64_t tile) {
+    std::uint32_t count = 0;
+    for (std::size_t task = 0; task < records.tasks.size(); ++task) {
+        const RecordPool& pool = records.tasks[task].pool;
+        if (pool.chunks[tile] != 0)
+            count += (pool.chunks[tile] - 1) * kChunkRecords + (pool.cursors[tile] - 1) % kChunkRecords + 1;
+    }
+    return count;
+}
+
+std::uint32_t list_runs(const TileRecords& records, std::uint64_t tile, RecordRun* runs) {
+    std::uint32_t count = 0;
+    for (std::size_t task = 0; task < records.tasks.size(); ++task) {
+        const RecordPool& pool = records.tasks[task].pool;
+        const std::uint32_t chunks = pool.chunks[tile];
+        std::uint32_t chunk = pool.firsts[tile];
+        for (std::uint32_t c = 1; c <= chunks; ++c) {
+            const std::uint32_t filled = c < chunks ? kChunkRecords : (pool.cursors[tile] - 1) % kChunkRecords + 1;
+            runs[count++] = {pool.records + std::size_t{chunk} * kChunkRecords, filled};
+            chunk = pool.next[chunk];
+        }
+    }
+    return count;
+}
+
+} // namespace manylights::detail

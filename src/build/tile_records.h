@@ -1,0 +1,162 @@
+#pragma once
+// Lights to tiles, for all structures: each light is recorded in the tiles that its pixels span.
+//
+//   cull     which lights are in view                                                           cull_lanes.cpp
+//   span     each light's tiles, by its pixels                                                  tile_spans.cpp
+//   record   windows: its depths in each of them, narrowed                                      windows_narrow.cpp
+//            depth slices: its depths                                                           grid_records.cpp
+//
+// A block of lights goes through all of that while it is in the cache. Records are kept in chunks per tile. Each
+// light's outcome is its own, and a tile keeps the order of the lights' blocks and, within a block, of the lights'
+// spans. So it does not matter which task does what.
+
+#include "src/build/cull.h"
+#include "src/build/grid.h"
+#include "src/format/layout.h"
+
+#include <manylights/format.h>
+
+#include <hwy/cache_control.h>
+
+#include <cstdint>
+
+namespace manylights::detail {
+
+// One light in one tile. Decided once, in plan; write replays it. Structures with depth slices keep the bits of two
+// floats, the light's depths.
+struct TileRecord {
+    std::uint32_t light;     // the caller's index
+    std::uint32_t near_bits; // windows: depth code 24 bits, x0 4 bits, x1 4 bits
+    std::uint32_t far_bits;  // windows: depth code 24 bits, y0 4 bits, y1 4 bits
+
+    std::uint32_t near_code() const { return near_bits & ML_DEPTH_CODE_MAX; }
+    std::uint32_t far_code() const { return far_bits & ML_DEPTH_CODE_MAX; }
+    std::uint32_t extent() const { return far_code() - near_code(); }
+};
+
+// Lights that span the same number of tiles take the same steps: they are narrowed together, without a branch.
+constexpr std::uint32_t kSmallSpan = 4;                        // tiles per axis
+constexpr std::uint32_t kSpanShapes = kSmallSpan * kSmallSpan; // of lights within the image
+constexpr std::uint32_t kLargeSpan = 2 * kSpanShapes;          // behind them those that its edge cuts
+constexpr std::uint32_t kSpanGroups = kLargeSpan + 1;          // and all others
+
+// What a block's lights span: parallel to its arrays.
+struct BlockSpans {
+    std::uint32_t *first_tile, *last_tile; // x | y << 16
+    std::uint32_t* steps;                  // first and last in x, first and last in y, 4 bits each
+    std::uint32_t* order;                  // positions in the block, by group
+    std::uint32_t* ends;                   // of the groups in order
+};
+
+// What spanning needs to know of a view.
+struct SpanView {
+    std::uint32_t tile_px;
+    std::uint32_t last_px_x, last_px_y;
+};
+
+void span_block(const SpanView& view, const LightBlock& lights, const BlockSpans& spans);
+
+// How many tiles the lights of a block span, all together.
+std::uint64_t count_tiles(const SpanView& view, const LightBlock& lights);
+
+// The planes of a column or a row towards the one before and the one behind it.
+struct AxisPlanes {
+    float *before_offset, *before_depth, *behind_offset, *behind_depth;
+};
+
+// What narrowing needs to know of a view.
+struct NarrowView {
+    AxisPlanes columns, rows;
+    float near_depth, far_depth; // of what is promised, widened
+    float depth_scale;
+    std::uint32_t tiles_x, first_tile;
+    std::uint32_t full_steps; // the last step of a tile
+};
+
+// The records of all tiles, as one task finds them. A tile has its own in a chain of chunks; chunk 0 is none's.
+constexpr std::uint32_t kChunkRecords = 32;
+struct RecordPool {
+    TileRecord* records;
+    std::uint32_t* next;    // per chunk: the tile's next one
+    std::uint32_t* cursors; // per tile: behind its last record; 0: it has none
+    std::uint32_t* firsts;  // per tile: its first chunk
+    std::uint32_t* chunks;  // per tile: how many it has
+    std::uint32_t capacity; // in chunks
+    std::uint32_t used;     // also where that is more than there are: then the records are worth nothing
+};
+
+// Records on their way to their tiles, and room for the rows of one light.
+struct RecordBuffer {
+    std::uint32_t *tile, *light, *near_bits, *far_bits; // kBufferedRecords, and two vectors
+    float *row_low, *row_high, *row_distance, *row_normal;
+};
+constexpr std::uint32_t kBufferedRecords = 512;
+
+// Returns the number of records.
+std::uint64_t narrow_block(const NarrowView& view, const LightBlock& lights, const BlockSpans& spans,
+                           const RecordBuffer& buffer, RecordPool& pool);
+
+// What recording needs to know of a view whose structure has depth slices.
+struct BoxView {
+    std::uint32_t tiles_x, first_tile;
+};
+
+// Likewise, with all depths of a light in each tile. farthest grows to where the farthest light ends.
+std::uint64_t box_block(const BoxView& view, const LightBlock& lights, const BlockSpans& spans,
+                        const RecordBuffer& buffer, RecordPool& pool, float& farthest);
+
+// Some of a tile's records. A vector may be read where the last one begins.
+struct RecordRun {
+    const TileRecord* records;
+    std::uint32_t count;
+};
+
+// The runs of a tile lie anywhere. Whoever reads them asks for some ahead, lest their lines be waited for in turn.
+constexpr std::uint32_t kRunsAhead = 6;
+inline void prefetch_ahead(const RecordRun* runs, std::uint32_t run_count, std::uint32_t k) {
+    if (k + kRunsAhead >= run_count) return;
+    const RecordRun& run = runs[k + kRunsAhead];
+    for (std::uint32_t i = 0; i < run.count; i += 64 / sizeof(TileRecord)) hwy::Prefetch(run.records + i);
+}
+
+// What one task needs.
+struct RecordTask {
+    RecordPool pool;
+    std::uint64_t records;
+    Ignored ignored;
+    float farthest[kMaxViews]; // where there are depth slices
+};
+
+// What the sampled lights of a view say about all of them.
+struct LightSample {
+    std::uint64_t visible; // estimated
+    double weight;         // lights per sampled one
+};
+
+struct TileRecords {
+    LightSample samples[kMaxViews];
+    Array<ManylightsSphere> sample_spheres;
+    Array<float> sample_floats;        // per view: a block
+    Array<std::uint32_t> sample_words; // likewise
+    Array<float> planes;               // windows: of the views' columns and rows
+    Array<RecordTask> tasks;           // that work on lights
+    Array<TileRecord> records;         // per task
+    Array<std::uint32_t> next;         // per task, see RecordPool
+    Array<std::uint32_t> chains;       // per task and tile: cursors, firsts, chunks
+    Array<float> task_floats;          // per task: a block, and a buffer's rows
+    Array<std::uint32_t> task_words;   // per task: a block, its spans, and a buffer
+    std::uint64_t tile_count = 0;      // of all views
+    std::uint64_t count = 0;           // of records
+
+    void use(const Allocator& allocator);
+};
+
+// A tile's records, in order: the runs, and their number.
+std::uint32_t list_runs(const TileRecords& records, std::uint64_t tile, RecordRun* runs);
+std::uint32_t tile_record_count(const TileRecords& records, std::uint64_t tile);
+// Runs that a tile of so many records may have: each task may leave a chunk unfilled.
+inline std::size_t run_room(const TileRecords& records, std::uint32_t largest_tile) {
+    return largest_tile / kChunkRecords + records.tasks.size();
+}
+
+} // namespace manylights::detail

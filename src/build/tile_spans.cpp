@@ -1,0 +1,139 @@
+// Which tiles each light spans, a vector of lights at a time.
+#include "src/build/tile_records.h"
+
+#include "src/build/lanes.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "src/build/tile_spans.cpp"
+#include <hwy/foreach_target.h>
+// foreach_target comes first.
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace manylights::detail::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Floats = hn::Vec<hn::ScalableTag<float>>;
+using Words = hn::Vec<hn::ScalableTag<std::uint32_t>>;
+constexpr hn::ScalableTag<float> kF;
+constexpr hn::ScalableTag<std::uint32_t> kW;
+constexpr hn::ScalableTag<std::int32_t> kI;
+
+HWY_INLINE Floats to_float(Words v) { return hn::ConvertTo(kF, hn::BitCast(kI, v)); }
+HWY_INLINE Words to_word(Floats v) { return hn::BitCast(kW, hn::ConvertTo(kI, v)); }
+
+// v / tile_px for integers below 2^20, exactly: (v + 1/2) / tile_px is at least 1 / (2 tile_px) from an integer, and
+// its rounding is less than 2^-23 of v / tile_px.
+HWY_INLINE Words divide(Words v, Floats inverse) { return to_word((to_float(v) + hn::Set(kF, 0.5f)) * inverse); }
+
+struct AxisSpan {
+    Words first_tile, last_tile, steps, is_clipped;
+};
+
+HWY_INLINE AxisSpan span_axis(Words pixels, std::uint32_t tile_px, std::uint32_t last_px) {
+    const Floats inverse = hn::Set(kF, 1.0f / static_cast<float>(tile_px));
+    const Words size = hn::Set(kW, tile_px);
+    const Words first = hn::And(pixels, hn::Set(kW, 0xFFFF));
+    const Words last = hn::ShiftRight<16>(pixels);
+    const Words first_tile = divide(first, inverse);
+    const Words last_tile = divide(last, inverse);
+    // ml_tile_step, of the distance from the tile's first pixel.
+    const Words first_step = divide(hn::ShiftLeft<4>(first - first_tile * size), inverse);
+    const Words last_step = divide(hn::ShiftLeft<4>(last - last_tile * size), inverse);
+    const auto clipped = hn::Or(first == hn::Zero(kW), last == hn::Set(kW, last_px));
+    return {first_tile, last_tile, hn::Or(first_step, hn::ShiftLeft<4>(last_step)),
+            hn::IfThenElseZero(clipped, hn::Set(kW, kSpanShapes))};
+}
+
+// Lights of a size that narrowing takes, see narrow_slack.
+HWY_INLINE auto can_narrow(const LightBlock& lights, std::size_t i) {
+    const Floats sum = hn::Abs(hn::LoadU(kF, lights.x + i)) + hn::Abs(hn::LoadU(kF, lights.y + i)) +
+                       hn::Abs(hn::LoadU(kF, lights.depth + i)) + hn::LoadU(kF, lights.radius + i);
+    return hn::And(sum >= hn::Set(kF, 1e-9f), sum <= hn::Set(kF, 4e18f));
+}
+
+HWY_INLINE Words group_of(const AxisSpan& x, const AxisSpan& y, hn::Mask<hn::ScalableTag<float>> narrows) {
+    const Words columns = x.last_tile - x.first_tile;
+    const Words rows = y.last_tile - y.first_tile;
+    const Words group = hn::ShiftLeft<2>(rows) + columns + hn::Max(x.is_clipped, y.is_clipped);
+    const auto is_small = hn::And(hn::RebindMask(kW, narrows), hn::Max(columns, rows) < hn::Set(kW, kSmallSpan));
+    return hn::IfThenElse(is_small, group, hn::Set(kW, kLargeSpan));
+}
+
+// Positions by group, ascending within each. Four parts of the block are counted and placed side by side: lights of one
+// group tend to follow each other, and one count would wait for the other.
+constexpr std::uint32_t kParts = 4;
+
+struct GroupCounts {
+    std::uint32_t of[kSpanGroups][kParts];
+};
+
+HWY_INLINE void order_groups(const std::uint32_t* groups, std::uint32_t count, const BlockSpans& spans) {
+    GroupCounts counts = {};
+    const std::uint32_t part = count / kParts;
+    for (std::uint32_t i = 0; i < part; ++i)
+        for (std::uint32_t p = 0; p < kParts; ++p) ++counts.of[groups[p * part + i]][p];
+    for (std::uint32_t i = kParts * part; i < count; ++i) ++counts.of[groups[i]][kParts - 1];
+    std::uint32_t sum = 0;
+    for (std::uint32_t g = 0; g < kSpanGroups; ++g) {
+        for (std::uint32_t p = 0; p < kParts; ++p) {
+            const std::uint32_t here = counts.of[g][p];
+            counts.of[g][p] = sum;
+            sum += here;
+        }
+        spans.ends[g] = sum;
+    }
+    for (std::uint32_t i = 0; i < part; ++i)
+        for (std::uint32_t p = 0; p < kParts; ++p) spans.order[counts.of[groups[p * part + i]][p]++] = p * part + i;
+    for (std::uint32_t i = kParts * part; i < count; ++i) spans.order[counts.of[groups[i]][kParts - 1]++] = i;
+}
+
+} // namespace
+
+void span_block(const SpanView& view, const LightBlock& lights, const BlockSpans& spans) {
+    std::uint32_t groups[kBlockRoom];
+    for (std::size_t i = 0; i < lights.count; i += hn::Lanes(kW)) {
+        const AxisSpan x = span_axis(hn::LoadU(kW, lights.pixels_x + i), view.tile_px, view.last_px_x);
+        const AxisSpan y = span_axis(hn::LoadU(kW, lights.pixels_y + i), view.tile_px, view.last_px_y);
+        hn::StoreU(hn::Or(x.first_tile, hn::ShiftLeft<16>(y.first_tile)), kW, spans.first_tile + i);
+        hn::StoreU(hn::Or(x.last_tile, hn::ShiftLeft<16>(y.last_tile)), kW, spans.last_tile + i);
+        hn::StoreU(hn::Or(x.steps, hn::ShiftLeft<8>(y.steps)), kW, spans.steps + i);
+        hn::StoreU(group_of(x, y, can_narrow(lights, i)), kW, groups + i);
+    }
+    order_groups(groups, lights.count, spans);
+}
+
+std::uint64_t count_tiles(const SpanView& view, const LightBlock& lights) {
+    std::uint64_t sum = 0;
+    HWY_ALIGN std::uint32_t tiles[hn::MaxLanes(kW)];
+    for (std::size_t i = 0; i < lights.count; i += hn::Lanes(kW)) {
+        const AxisSpan x = span_axis(hn::LoadU(kW, lights.pixels_x + i), view.tile_px, view.last_px_x);
+        const AxisSpan y = span_axis(hn::LoadU(kW, lights.pixels_y + i), view.tile_px, view.last_px_y);
+        const Words one = hn::Set(kW, 1);
+        const Words product = (x.last_tile - x.first_tile + one) * (y.last_tile - y.first_tile + one);
+        hn::Store(hn::IfThenElseZero(hn::FirstN(kW, lights.count - i), product), kW, tiles);
+        for (std::size_t k = 0; k < hn::Lanes(kW); ++k) sum += tiles[k];
+    }
+    return sum;
+}
+
+} // namespace manylights::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace manylights::detail {
+
+HWY_EXPORT(span_block);
+HWY_EXPORT(count_tiles);
+
+void span_block(const SpanView& view, const LightBlock& lights, const BlockSpans& spans) {
+    HWY_DYNAMIC_DISPATCH(span_block)(view, lights, spans);
+}
+
+std::uint64_t count_tiles(const SpanView& view, const LightBlock& lights) {
+    return HWY_DYNAMIC_DISPATCH(count_tiles)(view, lights);
+}
+
+} // namespace manylights::detail
+#endif

@@ -1,0 +1,238 @@
+// Records: each light's depths and rectangle in each of its tiles, a vector of lights or of tiles at a time.
+#include "src/build/tile_records.h"
+
+#include "src/build/lanes.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "src/build/windows_narrow.cpp"
+#include <hwy/foreach_target.h>
+// foreach_target comes first.
+#include <hwy/highway.h>
+
+#include "src/build/narrow-inl.h"
+#include "src/build/record_emitter-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace manylights::detail::HWY_NAMESPACE {
+namespace {
+
+using Spheres = WedgeSpheres<Floats>;
+using Cuts = WedgeCuts<Floats>;
+
+// ml_depth_code.
+HWY_INLINE Words depth_code(Floats depth, float scale) {
+    const Floats scaled = hn::Max(depth * hn::Set(kF, scale), hn::Zero(kF));
+    return hn::BitCast(kW, hn::ConvertTo(kI, hn::Min(scaled, hn::Set(kF, 16777215.0f))));
+}
+
+// What a vector of records has in common.
+struct Records {
+    Words tile, light, steps_x, steps_y;
+};
+
+// The range is clipped to the planes between which points are promised anything. kept: of the lanes, what may be there.
+HWY_INLINE void emit(const NarrowView& view, const Records& records, const Cuts& column, const Cuts& row, Floats slack,
+                     Mask kept, Emitter& emitter) {
+    const Floats low = hn::Max(finish_low(column.low, row.low, slack), hn::Set(kF, view.near_depth));
+    const Floats high = hn::Min(finish_high(column.high, row.high, slack), hn::Set(kF, view.far_depth));
+    kept = hn::And(kept, low <= high);
+    const Words near_bits = hn::Or(depth_code(low, view.depth_scale), hn::ShiftLeft<24>(records.steps_x));
+    const Words far_bits = hn::Or(depth_code(high, view.depth_scale), hn::ShiftLeft<24>(records.steps_y));
+    emitter.add(records.tile, records.light, near_bits, far_bits, kept);
+}
+
+// The lights of a group, in positions [begin, end) of the order: columns x rows tiles each.
+struct SpanGroup {
+    std::uint32_t begin, end;
+    std::uint32_t columns, rows;
+    bool is_clipped; // by the image's edge: then also the outermost planes cut
+};
+
+// Tile number step of count along an axis; first is the number of the first one, in the image.
+HWY_INLINE Cuts cut_tile(const Spheres& spheres, const AxisPlanes& planes, Words first, std::uint32_t step,
+                         std::uint32_t count, bool is_clipped) {
+    Cuts cuts = uncut(spheres);
+    const Ints tile = hn::BitCast(kI, first + hn::Set(kW, step));
+    if (step > 0 || is_clipped)
+        cut_side(spheres, hn::GatherIndex(kF, planes.before_offset, tile),
+                 hn::GatherIndex(kF, planes.before_depth, tile), cuts);
+    if (step + 1 < count || is_clipped)
+        cut_side(spheres, hn::GatherIndex(kF, planes.behind_offset, tile),
+                 hn::GatherIndex(kF, planes.behind_depth, tile), cuts);
+    return cuts;
+}
+
+// The steps of tile number step of count: only the outermost ones are reached in part.
+HWY_INLINE Words steps_of(Words steps, std::uint32_t step, std::uint32_t count, std::uint32_t full) {
+    const Words first = step == 0 ? hn::And(steps, hn::Set(kW, 15)) : hn::Zero(kW);
+    const Words last = step + 1 == count ? hn::And(steps, hn::Set(kW, 240)) : hn::Set(kW, full << 4);
+    return hn::Or(first, last);
+}
+
+// A vector of a group's lights.
+struct GroupLights {
+    Spheres along_x, along_y;
+    Words first_column, first_row, first_tile, light, steps;
+    Mask present;
+};
+
+HWY_INLINE GroupLights load_lights(const NarrowView& view, const LightBlock& lights, const BlockSpans& spans,
+                                   std::uint32_t i, std::uint32_t end) {
+    const Mask present = hn::FirstN(kF, i < end ? end - i : 0);
+    const Words order = hn::IfThenElseZero(hn::RebindMask(kW, present), hn::LoadU(kW, spans.order + i));
+    const Ints at = hn::BitCast(kI, order);
+    const Floats x = gather(lights.x, at);
+    const Floats y = gather(lights.y, at);
+    const Floats depth = gather(lights.depth, at);
+    const Floats radius = gather(lights.radius, at);
+    const Floats slack = narrow_slack(x, y, depth, radius);
+    const Words first = gather(spans.first_tile, at);
+    const Words column = hn::And(first, hn::Set(kW, 0xFFFF));
+    const Words row = hn::ShiftRight<16>(first);
+    const Words tile = hn::Set(kW, view.first_tile) + row * hn::Set(kW, view.tiles_x) + column;
+    return {{x, depth, radius, slack}, {y, depth, radius, slack}, column, row, tile,
+            gather(lights.index, at),  gather(spans.steps, at),   present};
+}
+
+HWY_INLINE void narrow_row(const NarrowView& view, const SpanGroup& group, const GroupLights (&lights)[kVectors],
+                           const Cuts (&columns)[kSmallSpan][kVectors], std::uint32_t r, Emitter& emitter) {
+    const bool has_corners = (group.columns > 1 && group.rows > 1) || group.is_clipped;
+    Cuts rows[kVectors];
+    for (std::uint32_t v = 0; v < kVectors; ++v)
+        rows[v] = cut_tile(lights[v].along_y, view.rows, lights[v].first_row, r, group.rows, group.is_clipped);
+    for (std::uint32_t c = 0; c < group.columns; ++c) {
+        for (std::uint32_t v = 0; v < kVectors; ++v) {
+            const GroupLights& l = lights[v];
+            const Records records = {l.first_tile + hn::Set(kW, r * view.tiles_x + c), l.light,
+                                     steps_of(l.steps, c, group.columns, view.full_steps),
+                                     steps_of(hn::ShiftRight<8>(l.steps), r, group.rows, view.full_steps)};
+            Mask kept = l.present;
+            if (has_corners) kept = hn::AndNot(misses_corner(columns[c][v], rows[v], l.along_x.radius), kept);
+            emit(view, records, columns[c][v], rows[v], l.along_x.slack, kept, emitter);
+        }
+    }
+}
+
+void narrow_group(const NarrowView& view, const LightBlock& lights, const BlockSpans& spans, const SpanGroup& group,
+                  Emitter& emitter) {
+    const auto lanes = static_cast<std::uint32_t>(hn::Lanes(kF));
+    for (std::uint32_t i = group.begin; i < group.end; i += kTogether) {
+        GroupLights together[kVectors];
+        Cuts columns[kSmallSpan][kVectors];
+        for (std::uint32_t v = 0; v < kVectors; ++v) {
+            together[v] = load_lights(view, lights, spans, i + v * lanes, group.end);
+            for (std::uint32_t c = 0; c < group.columns; ++c)
+                columns[c][v] = cut_tile(together[v].along_x, view.columns, together[v].first_column, c, group.columns,
+                                         group.is_clipped);
+        }
+        for (std::uint32_t r = 0; r < group.rows; ++r) narrow_row(view, group, together, columns, r, emitter);
+    }
+}
+
+// Tiles [first, first + lanes) along an axis, of one sphere.
+HWY_INLINE Cuts cut_tiles(const Spheres& sphere, const AxisPlanes& planes, std::uint32_t first) {
+    Cuts cuts = uncut(sphere);
+    cut_side(sphere, hn::LoadU(kF, planes.before_offset + first), hn::LoadU(kF, planes.before_depth + first), cuts);
+    cut_side(sphere, hn::LoadU(kF, planes.behind_offset + first), hn::LoadU(kF, planes.behind_depth + first), cuts);
+    return cuts;
+}
+
+struct LargeLight {
+    Spheres along_x, along_y;
+    std::uint32_t light, steps;
+    std::uint32_t first_x, last_x, first_y, last_y;
+    bool narrows; // see narrow_slack
+};
+
+HWY_INLINE LargeLight load_light(const LightBlock& lights, const BlockSpans& spans, std::uint32_t at) {
+    const Floats x = hn::Set(kF, lights.x[at]);
+    const Floats y = hn::Set(kF, lights.y[at]);
+    const Floats depth = hn::Set(kF, lights.depth[at]);
+    const Floats radius = hn::Set(kF, lights.radius[at]);
+    const Floats slack = narrow_slack(x, y, depth, radius);
+    const float sum = hn::GetLane(slack);
+    const std::uint32_t first = spans.first_tile[at];
+    const std::uint32_t last = spans.last_tile[at];
+    return {{x, depth, radius, slack},
+            {y, depth, radius, slack},
+            lights.index[at],
+            spans.steps[at],
+            first & 0xFFFF,
+            last & 0xFFFF,
+            first >> 16,
+            last >> 16,
+            sum >= 1e-9f * 0x1p-20f && sum <= 4e18f * 0x1p-20f};
+}
+
+void cut_rows(const NarrowView& view, const LargeLight& light, const RecordBuffer& buffer) {
+    for (std::uint32_t y = light.first_y; y <= light.last_y; y += static_cast<std::uint32_t>(hn::Lanes(kF))) {
+        const Cuts rows = light.narrows ? cut_tiles(light.along_y, view.rows, y) : uncut(light.along_y);
+        hn::StoreU(rows.low, kF, buffer.row_low + (y - light.first_y));
+        hn::StoreU(rows.high, kF, buffer.row_high + (y - light.first_y));
+        hn::StoreU(rows.distance, kF, buffer.row_distance + (y - light.first_y));
+        hn::StoreU(rows.normal_depth, kF, buffer.row_normal + (y - light.first_y));
+    }
+}
+
+// The tiles of one light: its rows, then a vector of columns at a time.
+void narrow_large(const NarrowView& view, const LargeLight& light, Emitter& emitter) {
+    const RecordBuffer& buffer = emitter.buffer();
+    cut_rows(view, light, buffer);
+    const Words first_x = hn::Set(kW, light.first_x);
+    const Words last_x = hn::Set(kW, light.last_x);
+    const Words begin_step = hn::Set(kW, light.steps & 15);
+    const Words end_step = hn::Set(kW, light.steps & 240);
+    for (std::uint32_t x = light.first_x; x <= light.last_x; x += static_cast<std::uint32_t>(hn::Lanes(kF))) {
+        const Words column = hn::Iota(kW, x);
+        const Mask present = hn::FirstN(kF, light.last_x - x + 1);
+        const Cuts columns = light.narrows ? cut_tiles(light.along_x, view.columns, x) : uncut(light.along_x);
+        const Words steps_x = hn::Or(hn::IfThenElseZero(column == first_x, begin_step),
+                                     hn::IfThenElse(column == last_x, end_step, hn::Set(kW, view.full_steps << 4)));
+        for (std::uint32_t y = light.first_y; y <= light.last_y; ++y) {
+            const std::uint32_t r = y - light.first_y;
+            const Cuts row = {hn::Set(kF, buffer.row_low[r]), hn::Set(kF, buffer.row_high[r]),
+                              hn::Set(kF, buffer.row_distance[r]), hn::Set(kF, buffer.row_normal[r])};
+            const std::uint32_t first_step = y == light.first_y ? (light.steps >> 8) & 15 : 0;
+            const std::uint32_t last_step = y == light.last_y ? (light.steps >> 8) & 240 : view.full_steps << 4;
+            const Records records = {column + hn::Set(kW, view.first_tile + y * view.tiles_x), hn::Set(kW, light.light),
+                                     steps_x, hn::Set(kW, first_step | last_step)};
+            const Mask kept =
+                light.narrows ? hn::AndNot(misses_corner(columns, row, light.along_x.radius), present) : present;
+            emit(view, records, columns, row, light.along_x.slack, kept, emitter);
+        }
+    }
+}
+
+} // namespace
+
+std::uint64_t narrow_block(const NarrowView& view, const LightBlock& lights, const BlockSpans& spans,
+                           const RecordBuffer& buffer, RecordPool& pool) {
+    Emitter emitter(buffer, pool);
+    std::uint32_t begin = 0;
+    for (std::uint32_t g = 0; g < kLargeSpan; ++g) {
+        const std::uint32_t shape = g % kSpanShapes;
+        const SpanGroup group = {begin, spans.ends[g], shape % kSmallSpan + 1, shape / kSmallSpan + 1,
+                                 g >= kSpanShapes};
+        narrow_group(view, lights, spans, group, emitter);
+        begin = spans.ends[g];
+    }
+    for (std::uint32_t i = begin; i < spans.ends[kLargeSpan]; ++i)
+        narrow_large(view, load_light(lights, spans, spans.order[i]), emitter);
+    return emitter.finish();
+}
+
+} // namespace manylights::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace manylights::detail {
+
+HWY_EXPORT(narrow_block);
+
+std::uint64_t narrow_block(const NarrowView& view, const LightBlock& lights, const BlockSpans& spans,
+                           const RecordBuffer& buffer, RecordPool& pool) {
+    return HWY_DYNAMIC_DISPATCH(narrow_block)(view, lights, spans, buffer, pool);
+}
+
+} // namespace manylights::detail
+#endif
