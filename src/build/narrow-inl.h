@@ -78,36 +78,29 @@ HWY_INLINE void cut_side(const WedgeSpheres<V>& s, V normal_offset, V normal_dep
     cuts.normal_depth = IfThenElse(worse, normal_depth, cuts.normal_depth);
 }
 
-// A tile is what its column and its row have in common. Does a sphere miss it although it meets both? Then it passes by
-// at the tile's corner.
+// What a row of tiles holds of spheres, as spheres again, for the row's columns to cut. A sphere whose centre is
+// outside of a plane, at the distance h < 0, has only a cap inside that is less than half of it, and the ball around
+// the cap's disc holds the cap: its centre is c - h * n, its radius sqrt(r^2 - h^2). So at the row's outer tiles the
+// columns cut a smaller ball, which is nearer to the row as well; and a ball that passes by at a tile's corner meets no
+// column there. Of the centre's coordinates, n changes the depth and the one along the column, which columns do not ask
+// for.
 //
-// Two half-spaces with normals m and n, at distances h and k from the centre c (positive inside), g = m * n. Of a
-// column and a row only the depth components meet in g. The point of both half-spaces that is nearest to c is
-// c + a * m + b * n with a, b >= 0 (Karush, Kuhn, Tucker), and lies on their common edge where a and b are both
-// positive: there h + a + g * b = 0 and k + g * a + b = 0, so a * (1 - g^2) = g * k - h and b * (1 - g^2) = g * h - k.
-// Then its squared distance is -(a * h + b * k) = (h^2 + k^2 - 2 * g * h * k) / (1 - g^2), and the sphere misses the
-// tile where that is r^2 or more.
-//
-// h and k are of planes that were moved outwards already. Conservative: g is off by 5u, each of the terms by 12u of
-// h^2 + k^2 + r^2 with it, and what a wrong sign of a or b may change is the square of such a rounding; the last term
-// is 64u. It also decides against rejection where m and n are nearly parallel. Where a side was not cut, its distance
-// is +inf and the first comparison is false or meets NaN, which is false as well.
+// h is of the plane that was moved outwards already. The ball's depth is off by 4u * r + u * |depth|, its radius by
+// 3u * r: 8u * s are added to the radius. Where no side was violated, h counts as 0 and the ball is the sphere.
 template <class V>
-HWY_INLINE auto misses_corner(const WedgeCuts<V>& column, const WedgeCuts<V>& row, V radius) {
+HWY_INLINE WedgeSpheres<V> caps_of(const WedgeSpheres<V>& along_columns, const WedgeCuts<V>& row) {
     const hwy::HWY_NAMESPACE::DFromV<V> d;
     using namespace hwy::HWY_NAMESPACE;
-    const V g = column.normal_depth * row.normal_depth;
-    const V h = column.distance;
-    const V k = row.distance;
-    const V squares = h * h + k * k;
-    const V squared_radius = radius * radius;
-    const V excess = squares - (g + g) * h * k - squared_radius * (Set(d, 1.0f) - g * g);
-    const auto on_edge = And(g * k > h, g * h > k);
-    return And(on_edge, excess > Set(d, 0x1p-18f) * (squares + squared_radius));
+    const WedgeSpheres<V>& s = along_columns;
+    const V zero = Zero(d);
+    const V h = Min(row.distance, zero);
+    const V disc = Sqrt(Max((s.radius - h) * (s.radius + h), zero));
+    return {s.offset, s.depth - h * row.normal_depth, disc + s.slack * Set(d, 0.5f), s.slack};
 }
 
-// Depths of a tile, from those of its column and its row. 32u * s: 8u for the results' own roundings, 17u for the
-// 2^-20 that a caller's depth may be off (|depth| <= s), and two more for this subtraction itself.
+// Depths of a tile, from those of its column, which cuts the caps, and its row. 32u * s: 8u for the results' own
+// roundings, 17u for the 2^-20 that a caller's depth may be off (|depth| <= s), and two more for this subtraction
+// itself.
 template <class V>
 HWY_INLINE V finish_low(V column, V row, V slack) {
     return hwy::HWY_NAMESPACE::Max(column, row) - (slack + slack);

@@ -88,7 +88,7 @@ struct RecordPool {
 // Records on their way to their tiles, and room for the rows of one light.
 struct RecordBuffer {
     std::uint32_t *tile, *light, *near_bits, *far_bits; // kBufferedRecords, and two vectors
-    float *row_low, *row_high, *row_distance, *row_normal;
+    float *row_low, *row_high, *cap_depth, *cap_radius;
 };
 constexpr std::uint32_t kBufferedRecords = 512;
 

@@ -48,17 +48,35 @@ struct SpanGroup {
     bool is_clipped; // by the image's edge: then also the outermost planes cut
 };
 
-// Tile number step of count along an axis; first is the number of the first one, in the image.
-HWY_INLINE Cuts cut_tile(const Spheres& spheres, const AxisPlanes& planes, Words first, std::uint32_t step,
-                         std::uint32_t count, bool is_clipped) {
-    Cuts cuts = uncut(spheres);
+// The planes of a tile that cut, of tile number step of count along an axis: none towards where the light ends, unless
+// the image does.
+struct TilePlanes {
+    Floats before_offset, before_depth, behind_offset, behind_depth;
+    bool has_before, has_behind;
+};
+
+// first: the number of the lights' first tile, in the image.
+HWY_INLINE TilePlanes load_planes(const AxisPlanes& planes, Words first, std::uint32_t step, std::uint32_t count,
+                                  bool is_clipped) {
     const Ints tile = hn::BitCast(kI, first + hn::Set(kW, step));
-    if (step > 0 || is_clipped)
-        cut_side(spheres, hn::GatherIndex(kF, planes.before_offset, tile),
-                 hn::GatherIndex(kF, planes.before_depth, tile), cuts);
-    if (step + 1 < count || is_clipped)
-        cut_side(spheres, hn::GatherIndex(kF, planes.behind_offset, tile),
-                 hn::GatherIndex(kF, planes.behind_depth, tile), cuts);
+    TilePlanes loaded{};
+    loaded.has_before = step > 0 || is_clipped;
+    loaded.has_behind = step + 1 < count || is_clipped;
+    if (loaded.has_before) {
+        loaded.before_offset = gather(planes.before_offset, tile);
+        loaded.before_depth = gather(planes.before_depth, tile);
+    }
+    if (loaded.has_behind) {
+        loaded.behind_offset = gather(planes.behind_offset, tile);
+        loaded.behind_depth = gather(planes.behind_depth, tile);
+    }
+    return loaded;
+}
+
+HWY_INLINE Cuts cut_tile(const Spheres& spheres, const TilePlanes& planes) {
+    Cuts cuts = uncut(spheres);
+    if (planes.has_before) cut_side(spheres, planes.before_offset, planes.before_depth, cuts);
+    if (planes.has_behind) cut_side(spheres, planes.behind_offset, planes.behind_depth, cuts);
     return cuts;
 }
 
@@ -95,20 +113,21 @@ HWY_INLINE GroupLights load_lights(const NarrowView& view, const LightBlock& lig
 }
 
 HWY_INLINE void narrow_row(const NarrowView& view, const SpanGroup& group, const GroupLights (&lights)[kVectors],
-                           const Cuts (&columns)[kSmallSpan][kVectors], std::uint32_t r, Emitter& emitter) {
-    const bool has_corners = (group.columns > 1 && group.rows > 1) || group.is_clipped;
+                           const TilePlanes (&columns)[kSmallSpan][kVectors], std::uint32_t r, Emitter& emitter) {
     Cuts rows[kVectors];
-    for (std::uint32_t v = 0; v < kVectors; ++v)
-        rows[v] = cut_tile(lights[v].along_y, view.rows, lights[v].first_row, r, group.rows, group.is_clipped);
+    Spheres caps[kVectors];
+    for (std::uint32_t v = 0; v < kVectors; ++v) {
+        const GroupLights& l = lights[v];
+        rows[v] = cut_tile(l.along_y, load_planes(view.rows, l.first_row, r, group.rows, group.is_clipped));
+        caps[v] = caps_of(l.along_x, rows[v]);
+    }
     for (std::uint32_t c = 0; c < group.columns; ++c) {
         for (std::uint32_t v = 0; v < kVectors; ++v) {
             const GroupLights& l = lights[v];
             const Records records = {l.first_tile + hn::Set(kW, r * view.tiles_x + c), l.light,
                                      steps_of(l.steps, c, group.columns, view.full_steps),
                                      steps_of(hn::ShiftRight<8>(l.steps), r, group.rows, view.full_steps)};
-            Mask kept = l.present;
-            if (has_corners) kept = hn::AndNot(misses_corner(columns[c][v], rows[v], l.along_x.radius), kept);
-            emit(view, records, columns[c][v], rows[v], l.along_x.slack, kept, emitter);
+            emit(view, records, cut_tile(caps[v], columns[c][v]), rows[v], l.along_x.slack, l.present, emitter);
         }
     }
 }
@@ -118,23 +137,24 @@ void narrow_group(const NarrowView& view, const LightBlock& lights, const BlockS
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(kF));
     for (std::uint32_t i = group.begin; i < group.end; i += kTogether) {
         GroupLights together[kVectors];
-        Cuts columns[kSmallSpan][kVectors];
+        TilePlanes columns[kSmallSpan][kVectors];
         for (std::uint32_t v = 0; v < kVectors; ++v) {
             together[v] = load_lights(view, lights, spans, i + v * lanes, group.end);
             for (std::uint32_t c = 0; c < group.columns; ++c)
-                columns[c][v] = cut_tile(together[v].along_x, view.columns, together[v].first_column, c, group.columns,
-                                         group.is_clipped);
+                columns[c][v] = load_planes(view.columns, together[v].first_column, c, group.columns, group.is_clipped);
         }
         for (std::uint32_t r = 0; r < group.rows; ++r) narrow_row(view, group, together, columns, r, emitter);
     }
 }
 
-// Tiles [first, first + lanes) along an axis, of one sphere.
-HWY_INLINE Cuts cut_tiles(const Spheres& sphere, const AxisPlanes& planes, std::uint32_t first) {
-    Cuts cuts = uncut(sphere);
-    cut_side(sphere, hn::LoadU(kF, planes.before_offset + first), hn::LoadU(kF, planes.before_depth + first), cuts);
-    cut_side(sphere, hn::LoadU(kF, planes.behind_offset + first), hn::LoadU(kF, planes.behind_depth + first), cuts);
-    return cuts;
+// Of tiles [first, first + lanes) along an axis.
+HWY_INLINE TilePlanes load_planes(const AxisPlanes& planes, std::uint32_t first) {
+    return {hn::LoadU(kF, planes.before_offset + first),
+            hn::LoadU(kF, planes.before_depth + first),
+            hn::LoadU(kF, planes.behind_offset + first),
+            hn::LoadU(kF, planes.behind_depth + first),
+            true,
+            true};
 }
 
 struct LargeLight {
@@ -166,11 +186,12 @@ HWY_INLINE LargeLight load_light(const LightBlock& lights, const BlockSpans& spa
 
 void cut_rows(const NarrowView& view, const LargeLight& light, const RecordBuffer& buffer) {
     for (std::uint32_t y = light.first_y; y <= light.last_y; y += static_cast<std::uint32_t>(hn::Lanes(kF))) {
-        const Cuts rows = light.narrows ? cut_tiles(light.along_y, view.rows, y) : uncut(light.along_y);
+        const Cuts rows = light.narrows ? cut_tile(light.along_y, load_planes(view.rows, y)) : uncut(light.along_y);
+        const Spheres caps = light.narrows ? caps_of(light.along_x, rows) : light.along_x;
         hn::StoreU(rows.low, kF, buffer.row_low + (y - light.first_y));
         hn::StoreU(rows.high, kF, buffer.row_high + (y - light.first_y));
-        hn::StoreU(rows.distance, kF, buffer.row_distance + (y - light.first_y));
-        hn::StoreU(rows.normal_depth, kF, buffer.row_normal + (y - light.first_y));
+        hn::StoreU(caps.depth, kF, buffer.cap_depth + (y - light.first_y));
+        hn::StoreU(caps.radius, kF, buffer.cap_radius + (y - light.first_y));
     }
 }
 
@@ -185,20 +206,21 @@ void narrow_large(const NarrowView& view, const LargeLight& light, Emitter& emit
     for (std::uint32_t x = light.first_x; x <= light.last_x; x += static_cast<std::uint32_t>(hn::Lanes(kF))) {
         const Words column = hn::Iota(kW, x);
         const Mask present = hn::FirstN(kF, light.last_x - x + 1);
-        const Cuts columns = light.narrows ? cut_tiles(light.along_x, view.columns, x) : uncut(light.along_x);
+        const TilePlanes planes = load_planes(view.columns, x);
         const Words steps_x = hn::Or(hn::IfThenElseZero(column == first_x, begin_step),
                                      hn::IfThenElse(column == last_x, end_step, hn::Set(kW, view.full_steps << 4)));
         for (std::uint32_t y = light.first_y; y <= light.last_y; ++y) {
             const std::uint32_t r = y - light.first_y;
-            const Cuts row = {hn::Set(kF, buffer.row_low[r]), hn::Set(kF, buffer.row_high[r]),
-                              hn::Set(kF, buffer.row_distance[r]), hn::Set(kF, buffer.row_normal[r])};
+            const Cuts row = {hn::Set(kF, buffer.row_low[r]), hn::Set(kF, buffer.row_high[r]), hn::Zero(kF),
+                              hn::Zero(kF)};
+            const Spheres cap = {light.along_x.offset, hn::Set(kF, buffer.cap_depth[r]),
+                                 hn::Set(kF, buffer.cap_radius[r]), light.along_x.slack};
+            const Cuts cut = light.narrows ? cut_tile(cap, planes) : uncut(cap);
             const std::uint32_t first_step = y == light.first_y ? (light.steps >> 8) & 15 : 0;
             const std::uint32_t last_step = y == light.last_y ? (light.steps >> 8) & 240 : view.full_steps << 4;
             const Records records = {column + hn::Set(kW, view.first_tile + y * view.tiles_x), hn::Set(kW, light.light),
                                      steps_x, hn::Set(kW, first_step | last_step)};
-            const Mask kept =
-                light.narrows ? hn::AndNot(misses_corner(columns, row, light.along_x.radius), present) : present;
-            emit(view, records, columns, row, light.along_x.slack, kept, emitter);
+            emit(view, records, cut, row, light.along_x.slack, present, emitter);
         }
     }
 }

@@ -34,23 +34,28 @@ struct WedgeCut {
     double distance;
 };
 
+using Sphere = lanes::WedgeSpheres<Lane>;
+
 // A sphere in doubles has one in floats around it: its centre moves by 2^-23 of |c| at most.
-WedgeCut cut_wedge(const TileWedge& wedge, double offset, double depth, double radius, double other_offset = 0.0) {
+Sphere sphere_around(double offset, double depth, double radius, double other_offset) {
     const double distance = std::sqrt(offset * offset + depth * depth + other_offset * other_offset);
     const Lane radius_lane = to_lane(radius * (1.0 + 0x1p-22) + 0x1p-22 * distance);
     const Lane slack = lanes::narrow_slack(to_lane(offset), to_lane(other_offset), to_lane(depth), radius_lane);
-    const lanes::WedgeSpheres<Lane> sphere = {to_lane(offset), to_lane(depth), radius_lane, slack};
+    return {to_lane(offset), to_lane(depth), radius_lane, slack};
+}
+
+WedgeCut cut_wedge(const TileWedge& wedge, const Sphere& sphere) {
     WedgeCut cut{lanes::uncut(sphere), {}, 0.0};
     for (const detail::SidePlane& side : wedge.sides)
         lanes::cut_side(sphere, to_lane(side.offset), to_lane(side.depth), cut.lane);
-    cut.depths = {to_double(lanes::finish_low(cut.lane.low, cut.lane.low, slack)),
-                  to_double(lanes::finish_high(cut.lane.high, cut.lane.high, slack))};
+    cut.depths = {to_double(lanes::finish_low(cut.lane.low, cut.lane.low, sphere.slack)),
+                  to_double(lanes::finish_high(cut.lane.high, cut.lane.high, sphere.slack))};
     cut.distance = to_double(cut.lane.distance);
     return cut;
 }
 
-bool misses_corner(const WedgeCut& column, const WedgeCut& row, double radius) {
-    return hwy::HWY_NAMESPACE::AllTrue(kLane, lanes::misses_corner(column.lane, row.lane, to_lane(radius)));
+WedgeCut cut_wedge(const TileWedge& wedge, double offset, double depth, double radius, double other_offset = 0.0) {
+    return cut_wedge(wedge, sphere_around(offset, depth, radius, other_offset));
 }
 
 struct Point {
@@ -137,16 +142,16 @@ TEST(Narrow, HoldsEveryPointOfTheSphereThatAPixelOfTheTileIsPromised) {
     Random random(21);
     std::uint64_t held = 0;
     std::uint64_t narrowed = 0;
+    std::uint64_t smaller = 0;
     for (int i = 0; i < 20000; ++i) {
         const Strip columns = random_strip(random);
         const Strip rows = random_strip(random);
         const Ball ball = random_ball(random, columns, rows);
-        const WedgeCut column =
-            cut_wedge(columns.wedge(), ball.center.x, ball.center.depth, ball.radius, ball.center.y);
+        const Sphere along_x = sphere_around(ball.center.x, ball.center.depth, ball.radius, ball.center.y);
+        const WedgeCut column = cut_wedge(columns.wedge(), along_x);
         const WedgeCut row = cut_wedge(rows.wedge(), ball.center.y, ball.center.depth, ball.radius, ball.center.x);
-        const double radius =
-            ball.radius * (1.0 + 0x1p-22) + 0x1p-22 * std::hypot(ball.center.x, ball.center.y, ball.center.depth);
-        const bool missed = misses_corner(column, row, radius);
+        const WedgeCut cap = cut_wedge(columns.wedge(), lanes::caps_of(along_x, row.lane));
+        smaller += cap.depths.high - cap.depths.low < 0.9 * (column.depths.high - column.depths.low) ? 1 : 0;
         narrowed += column.depths.high - column.depths.low < 1.9 * ball.radius ? 1 : 0;
         for (const Point& p : sample(random, ball, columns)) {
             if (!columns.holds(p.x, p.depth)) continue;
@@ -154,11 +159,12 @@ TEST(Narrow, HoldsEveryPointOfTheSphereThatAPixelOfTheTileIsPromised) {
             if (!rows.holds(p.y, p.depth)) continue;
             ++held;
             ASSERT_TRUE(row.depths.low <= p.depth && p.depth <= row.depths.high) << i;
-            ASSERT_FALSE(missed) << i;
+            ASSERT_TRUE(cap.depths.low <= p.depth && p.depth <= cap.depths.high) << i;
         }
     }
     EXPECT_GT(held, 200000u);
     EXPECT_GT(narrowed, 8000u) << "the planes must cut most of these spheres";
+    EXPECT_GT(smaller, 4000u) << "a cap's ball must be narrower where its centre is beside the row";
 }
 
 // The depths of a sphere inside one half-space, in doubles and without any slack. false: they do not meet.
@@ -244,44 +250,34 @@ TEST(Narrow, IsTightOnOrdinaryLights) {
     EXPECT_GT(whole, 1.05 * found) << "the whole range must be looser";
 }
 
-// The nearest point of both half-spaces, by alternating projections with corrections (Dykstra): no formula in common.
-double distance_to_both(double h, double k, double g) {
-    // In the plane of the normals, the centre at the origin: m = (1, 0), n = (g, s).
-    const double s = std::sqrt(1.0 - g * g);
-    double x = 0.0, y = 0.0, on_m = 0.0, on_n = 0.0;
-    for (int i = 0; i < 20000; ++i) {
-        const double lack_m = std::max(-(h + x - on_m), 0.0);
-        x += lack_m - on_m;
-        on_m = lack_m;
-        const double lack_n = std::max(-(k + g * (x - g * on_n) + s * (y - s * on_n)), 0.0);
-        x += g * (lack_n - on_n);
-        y += s * (lack_n - on_n);
-        on_n = lack_n;
-    }
-    return std::hypot(x, y);
+// A sphere above the row y <= 0, whose cap is the ball of radius 3 around its foot; columns are planes x >= distance.
+TEST(Narrow, CutsTheCapThatTheRowHolds) {
+    const Sphere sphere = sphere_around(0.0, 10.0, 5.0, 4.0);
+    lanes::WedgeCuts<Lane> row = lanes::uncut(sphere);
+    row.distance = to_lane(-4.0);
+    const Sphere cap = lanes::caps_of(sphere, row);
+    EXPECT_NEAR(to_double(cap.radius), 3.0, 1e-4);
+    EXPECT_EQ(to_double(cap.depth), 10.0) << "the row's plane is the horizon";
+    EXPECT_EQ(to_double(cap.offset), 0.0);
+    row.normal_depth = to_lane(0.5);
+    EXPECT_NEAR(to_double(lanes::caps_of(sphere, row).depth), 12.0, 1e-4) << "towards the row";
+    row.distance = to_lane(2.0);
+    EXPECT_NEAR(to_double(lanes::caps_of(sphere, row).radius), 5.0, 1e-4) << "the centre is inside";
+    EXPECT_EQ(to_double(lanes::caps_of(sphere, row).depth), 10.0);
+    EXPECT_NEAR(to_double(lanes::caps_of(sphere, lanes::uncut(sphere)).radius), 5.0, 1e-4) << "nothing cuts";
 }
 
-TEST(Narrow, MissesACornerExactlyWhereItsEdgeIsNearestAndOutOfReach) {
-    Random random(23);
-    int missed = 0;
-    int kept = 0;
-    for (int i = 0; i < 2000; ++i) {
-        const double g = random.between(-0.9, 0.9);
-        WedgeCut column{{}, {0, 1}, random.between(-2, 1)};
-        WedgeCut row{{}, {0, 1}, random.between(-2, 1)};
-        column.lane = {to_lane(0), to_lane(1), to_lane(column.distance), to_lane(1)};
-        row.lane = {to_lane(0), to_lane(1), to_lane(row.distance), to_lane(g)};
-        const double nearest = distance_to_both(column.distance, row.distance, g);
-        const double faces = std::max(-column.distance, -row.distance);
-        const double beyond = nearest / std::max(faces, 1e-9) - 1.0;
-        if (!(nearest > 1e-3) || (beyond > 1e-6 && beyond < 1e-3)) continue; // floats may not tell edge from face
-        const bool edge = beyond >= 1e-3;
-        EXPECT_FALSE(misses_corner(column, row, nearest * (1.0 + 1e-4))) << i;
-        EXPECT_EQ(misses_corner(column, row, nearest * (1.0 - 1e-4)), edge) << i;
-        ++(edge ? missed : kept);
-    }
-    EXPECT_GT(missed, 300);
-    EXPECT_GT(kept, 100);
+// A tile's corner, 4 above and 4 beside the centre of a sphere of radius 5: it meets the column and the row, and not
+// both.
+TEST(Narrow, FindsNothingWhereASpherePassesByAtACorner) {
+    const TileWedge column = {{{0.6, -0.8}, {0.6, -0.8}}};
+    const Sphere sphere = sphere_around(0.0, 5.0, 5.0, 4.0);
+    EXPECT_FALSE(cut_wedge(column, sphere).depths.empty()) << "4 away";
+    lanes::WedgeCuts<Lane> row = lanes::uncut(sphere);
+    row.distance = to_lane(-4.0);
+    EXPECT_TRUE(cut_wedge(column, lanes::caps_of(sphere, row)).depths.empty()) << "4 away from a ball of radius 3";
+    row.distance = to_lane(-2.9);
+    EXPECT_FALSE(cut_wedge(column, lanes::caps_of(sphere, row)).depths.empty());
 }
 
 TEST(Narrow, TakesEveryMagnitude) {
@@ -293,7 +289,6 @@ TEST(Narrow, TakesEveryMagnitude) {
         EXPECT_TRUE(cut_wedge(wedge, scale, 2.0 * scale, 0.5 * scale).depths.empty());
         const WedgeCut around = cut_wedge(wedge, scale, -2.0 * scale, 50.0 * scale);
         EXPECT_FALSE(around.depths.empty());
-        EXPECT_FALSE(misses_corner(around, around, 50.0 * scale));
     }
 }
 
