@@ -22,7 +22,7 @@ constexpr std::array<const char*, 3> kTruthNames = {"auto", "brute_force", kGrid
 // Option values as they were typed; CLI11 finds them, the functions below judge them, so all refusals sound alike.
 struct Typed {
     std::string lights = "65536", seed = "1", kinds = "point", size, detail = "full", view = "shaded", scale_max;
-    CLI::Option* size_option = nullptr;
+    CLI::Option *size_option = nullptr, *distribution_option = nullptr;
     std::string truth = "auto";
     std::vector<std::string> settings, techniques;
     std::string list;
@@ -49,6 +49,7 @@ void read_selectors(const Typed& typed, Selectors& selectors) {
     const ImageSize size = image_size("--size", typed.size);
     selectors.width = size.width;
     selectors.height = size.height;
+    selectors.scene_distribution = typed.distribution_option->count() == 0;
     selectors.size_given = typed.size_option->count() > 0;
     read_settings(typed.settings, selectors.settings);
 }
@@ -57,8 +58,9 @@ void add_selectors(CLI::App& app, Selectors& selectors, Typed& typed) {
     app.add_option("--scene", selectors.scene, "a built-in scene (see `list scenes`) or a .glb or .gltf file [canyon]");
     app.add_option("--detail", typed.detail, "of built-in scenes: low or full [full]");
     app.add_option("--lights", typed.lights, "how many, 0 to 16777216 [65536]");
-    app.add_option("--distribution", selectors.lights.distribution,
-                   "volume, surface, surface-largest, groups, view or file [volume]");
+    typed.distribution_option =
+        app.add_option("--distribution", selectors.lights.distribution,
+                       "volume, surface, surface-largest, groups, view or file [blocktown: groups, else volume]");
     app.add_option("--seed", typed.seed, "of the distribution, a 32-bit number [1]");
     app.add_option("--radius", selectors.lights.radius,
                    "auto (about 6 lights affect a point), mix (as the distribution makes them) or MIN:MAX [auto]");

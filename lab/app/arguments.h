@@ -20,8 +20,9 @@ struct Selectors {
     std::string scene = "canyon";
     Detail detail = Detail::full;
     LightOptions lights;
-    OptionValues settings; ///< of the technique, in the order given
-    std::string camera;    ///< empty: the scene's first
+    bool scene_distribution = false; ///< the scene's own stands for that of lights
+    OptionValues settings;           ///< of the technique, in the order given
+    std::string camera;              ///< empty: the scene's first
     std::uint32_t width = 0, height = 0;
     bool size_given = false; ///< else the size is the command's own
     std::string points;      ///< file of saved points; may be empty, or not be there yet

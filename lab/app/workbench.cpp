@@ -19,6 +19,11 @@ PointBuffer checked_points(gpu::Device& device, const Selectors& selectors, cons
     return make_points(device, selectors, scene, camera, saved);
 }
 
+Selectors with_scene_distribution(Selectors selectors, const Scene& scene) {
+    if (selectors.scene_distribution) selectors.lights.distribution = scene.distribution;
+    return selectors;
+}
+
 } // namespace
 
 // What any technique holds on the device at the least: two vec4 per point, a 64-byte record and an RGBA float per
@@ -37,9 +42,9 @@ void check_memory(const Selectors& selectors, const Scene& scene, const gpu::Dev
 
 Workbench::Workbench(const Selectors& selectors)
     : scene_(load_scene(selectors.scene, selectors.detail)), saved_(find_saved_points(selectors, scene_)),
-      selectors_(with_saved_view(selectors, saved_)),
+      selectors_(with_scene_distribution(with_saved_view(selectors, saved_), scene_)),
       camera_(saved_ ? saved_->camera : find_camera(scene_, selectors.camera)),
-      lights_(make_lights(scene_, camera_, selectors.lights)), device_(device_options(selectors)),
+      lights_(make_lights(scene_, camera_, selectors_.lights)), device_(device_options(selectors)),
       points_(checked_points(device_, selectors_, scene_, camera_, saved_)), frame_{scene_,           camera_,
                                                                                     selectors_.width, selectors_.height,
                                                                                     lights_.lights,   points_} {}

@@ -20,6 +20,7 @@ constexpr Builtin kBuiltins[] = {
     {"citadel", "town on a terraced hill, 3 x 3 km, very long views", make_citadel},
     {"bars", "thin tall bars in front of a wall, 400 x 400 m", make_bars},
     {"cornell", "Cornell box, 10 x 10 x 10 m", make_cornell},
+    {"blocktown", "walled town of unit blocks on an island, 768 x 128 x 640", make_blocktown},
 };
 
 bool ends_with(const std::string& text, const char* ending) {

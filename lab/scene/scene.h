@@ -47,11 +47,12 @@ struct Scene {
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices; ///< three per triangle
     std::vector<Material> materials;
-    std::vector<Camera> cameras; ///< named; at least one; the first is the default
-    std::vector<Camera> path;    ///< the 16 fixed frames for comparisons
-    Box bounds;                  ///< of all triangles
-    Box light_box;               ///< that the volume distribution fills
-    float view_extent = 500.0f;  ///< slice_far of the structures: the scene's view distance
+    std::vector<Camera> cameras;         ///< named; at least one; the first is the default
+    std::vector<Camera> path;            ///< the 16 fixed frames for comparisons
+    Box bounds;                          ///< of all triangles
+    Box light_box;                       ///< that the volume distribution fills
+    std::string distribution = "volume"; ///< of lights, where none is asked for
+    float view_extent = 500.0f;          ///< slice_far of the structures: the scene's view distance
     RadiusTable radii;
     std::vector<SurfaceRule> surface_rules; ///< one per material; empty: the same density everywhere, offset by radius
     float crowding_radius = 0.0f; ///< surface lights thin out as 1 / (1 + (d / crowding_radius)^2) with the horizontal

@@ -3,11 +3,15 @@
 #include "lab/scene/error.h"
 #include "lab/techniques/brute_force/brute_force.h"
 #include "lab/techniques/clustered/clustered.h"
+#include "lab/techniques/clustered_samples/clustered_samples.h"
+#include "lab/techniques/culling_2_5d/culling_2_5d.h"
 #include "lab/techniques/depth_windows/depth_windows.h"
 #include "lab/techniques/depth_windows_wave/depth_windows_wave.h"
 #include "lab/techniques/exact/exact.h"
 #include "lab/techniques/hybrid_light_trees/hybrid_light_trees.h"
+#include "lab/techniques/tiled/tiled.h"
 #include "lab/techniques/tiled_light_trees/tiled_light_trees.h"
+#include "lab/techniques/z_bins/z_bins.h"
 
 namespace manylights::lab {
 
@@ -26,6 +30,10 @@ constexpr Entry kTechniques[] = {
     {hybrid_light_trees_info, make_hybrid_light_trees},
     {depth_windows_info, make_depth_windows},
     {depth_windows_wave_info, make_depth_windows_wave},
+    {tiled_info, make_tiled},
+    {culling_2_5d_info, make_culling_2_5d},
+    {clustered_samples_info, make_clustered_samples},
+    {z_bins_info, make_z_bins},
 };
 
 } // namespace

@@ -9,6 +9,7 @@ import unittest
 from harness import SMALL, CommandTest
 
 CELLS = ("clustered", "tiled_light_trees", "hybrid_light_trees", "depth_windows", "depth_windows_wave")
+DEVICE_BUILT = ("tiled", "culling_2_5d", "clustered_samples", "z_bins")
 
 
 def png_size(path):
@@ -72,11 +73,11 @@ class Verify(CommandTest):
     def test_all_techniques_are_exact(self):
         done = self.assert_done("verify", *SMALL, "--techniques", "all", "--stats", "a.json")
         self.assertEqual(done.stderr, "")
-        for name in ("brute_force", "exact", *CELLS):
+        for name in ("brute_force", "exact", *CELLS, *DEVICE_BUILT):
             self.assertRegex(done.stdout, rf"(?m)^{name} .* 0  exact$")
         with open(self.path("a.json")) as file:
             rows = json.load(file)
-        self.assertEqual([row["missing_points"] for row in rows], [0] * (2 + len(CELLS)))
+        self.assertEqual([row["missing_points"] for row in rows], [0] * (2 + len(CELLS) + len(DEVICE_BUILT)))
         cost = {row["technique"]: row["wave_cost_64"] for row in rows}
         self.assertEqual(cost["brute_force"], 500)
         self.assertEqual(min(cost, key=cost.get), "exact")
@@ -155,6 +156,12 @@ class Verify(CommandTest):
         for name in CELLS:
             self.assertRegex(done.stdout, rf"(?m)^{name} .* 0  exact$")
 
+    def test_a_scene_may_have_a_distribution_of_its_own(self):
+        town = ("verify", "--scene", "blocktown", "--detail", "low", "--lights", "50", "--size", "32x18",
+                "--techniques", "exact")
+        self.assertIn("50 lights (groups, ", self.assert_done(*town).stdout)
+        self.assertIn("50 lights (volume, ", self.assert_done(*town, "--distribution", "volume").stdout)
+
     def test_validation_is_active_and_silent(self):
         done = self.assert_done("verify", *SMALL, "--validation")
         self.assertRegex(done.stdout, r"(?m)^validation: core and synchronization active, 0 messages")
@@ -163,7 +170,7 @@ class Verify(CommandTest):
 class List(CommandTest):
     def test_lines(self):
         for what, names in {
-                "scenes": ("cornell", "bars", "canyon", "citadel"),
+                "scenes": ("cornell", "bars", "canyon", "citadel", "blocktown"),
                 "techniques": ("brute_force", "exact", *CELLS),
                 "suites": ("quality",),
         }.items():

@@ -113,6 +113,26 @@ std::vector<Variant> structure_variants() {
 std::vector<Variant> all_variants() {
     std::vector<Variant> variants = structure_variants();
     variants.push_back({"exact", "exact", {}});
+    variants.insert(variants.end(),
+                    {{"z_bins", "z_bins", {}},
+                     {"z_bins_8", "z_bins", {{"tile_size", "8"}, {"bins", "1024"}, {"summary", "on"}}},
+                     {"z_bins_16", "z_bins", {{"tile_size", "16"}, {"bins", "4096"}, {"spacing", "log"}}},
+                     {"z_bins_64", "z_bins", {{"tile_size", "64"}, {"bins", "2048"}, {"sort_key", "near"}}},
+                     {"z_bins_wave", "z_bins", {{"loop", "wave"}, {"summary", "on"}, {"spacing", "log"}}}});
+    variants.push_back({"tiled", "tiled", {}});
+    variants.push_back({"tiled_max_planes", "tiled", {{"depth", "max"}, {"test", "planes"}, {"tile_size", "13"}}});
+    variants.push_back({"tiled_none_rectangle", "tiled", {{"depth", "none"}, {"test", "rectangle"}}});
+    variants.push_back({"culling_2_5d", "culling_2_5d", {}});
+    variants.push_back({"culling_2_5d_b", "culling_2_5d", {{"variant", "b"}, {"cells", "64"}, {"tile_size", "13"}}});
+    variants.push_back({"culling_2_5d_b_16", "culling_2_5d", {{"variant", "b"}, {"cells", "16"}}});
+    variants.push_back({"culling_2_5d_c", "culling_2_5d", {{"variant", "c"}, {"cells", "8"}, {"interval", "sphere"}}});
+    variants.push_back({"clustered_samples", "clustered_samples", {}});
+    variants.push_back({"clustered_samples_pages",
+                        "clustered_samples",
+                        {{"unique", "page_table"}, {"bounds", "explicit"}, {"tile_size", "16"}, {"fan_out", "8"}}});
+    variants.push_back({"clustered_samples_bitmap", "clustered_samples", {{"unique", "bitmap"}, {"fan_out", "16"}}});
+    variants.push_back(
+        {"clustered_samples_hierarchy", "clustered_samples", {{"query", "hierarchy"}, {"fan_out", "8"}}});
     return variants;
 }
 

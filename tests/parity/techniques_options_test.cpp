@@ -30,7 +30,7 @@ void expect_words(const std::string& message, const std::vector<std::string>& wo
 TEST_F(TechniquesTest, unknown_technique_names_the_choices) {
     const std::string message = refusal(device(), "magic", {});
     expect_words(message, {"magic", "brute_force", "exact", "clustered", "tiled_light_trees", "hybrid_light_trees",
-                           "depth_windows", "depth_windows_wave"});
+                           "depth_windows", "depth_windows_wave", "tiled", "culling_2_5d"});
 }
 
 TEST_F(TechniquesTest, unknown_option_names_the_keys) {
@@ -59,11 +59,33 @@ TEST_F(TechniquesTest, values_out_of_range_name_the_range) {
     for (const char* value : {"", "128", "subgroups"})
         expect_words(refusal(device(), "depth_windows_wave", {{"wave", value}}),
                      {"depth_windows_wave", "wave", "subgroup, 4, 8, 16, 32, 64"});
+    for (const char* value : {"", "48", "128", "8px"})
+        expect_words(refusal(device(), "z_bins", {{"tile_size", value}}), {"z_bins", "tile_size", "8, 16, 32, 64"});
+    expect_words(refusal(device(), "z_bins", {{"bins", "8191"}}), {"bins", "8191", "1024, 2048, 4096, 8192"});
+    expect_words(refusal(device(), "z_bins", {{"spacing", "even"}}), {"spacing", "even", "linear, log"});
+    expect_words(refusal(device(), "z_bins", {{"summary", "1"}}), {"summary", "1", "off, on"});
+    expect_words(refusal(device(), "z_bins", {{"loop", "group"}}), {"loop", "group", "lane, wave"});
+    expect_words(refusal(device(), "z_bins", {{"sort_key", "far"}}), {"sort_key", "far", "centre, near"});
     expect_words(refusal(device(), "clustered", {{"producer", "magic"}}), {"producer", "magic", "library", "paper"});
     for (const char* value : {"1", "yes", ""})
         expect_words(refusal(device(), "depth_windows", {{"depth", value}}), {"depth_windows", "depth=", "off, on"});
     expect_words(refusal(device(), "clustered", {{"cell_test", "Tight"}}), {"cell_test", "Tight", "box, tight"});
     expect_words(refusal(device(), "clustered", {{"loop", "1"}}), {"loop", "1", "lane, wave"});
+    for (const char* name : {"tiled", "culling_2_5d"})
+        for (const char* value : {"7", "65", "16px", ""})
+            expect_words(refusal(device(), name, {{"tile_size", value}}), {name, "tile_size", "8", "64"});
+    expect_words(refusal(device(), "tiled", {{"depth", "min"}}), {"tiled", "depth=min", "minmax, max, none"});
+    expect_words(refusal(device(), "tiled", {{"test", "cone"}}), {"test=cone", "narrowed, rectangle, planes"});
+    expect_words(refusal(device(), "culling_2_5d", {{"variant", "d"}}), {"culling_2_5d", "variant=d", "a, b, c"});
+    expect_words(refusal(device(), "culling_2_5d", {{"cells", "33"}}), {"cells=33", "8", "16", "32", "64"});
+    expect_words(refusal(device(), "culling_2_5d", {{"interval", "tile"}}), {"interval=tile", "narrowed, sphere"});
+    for (const char* value : {"8", "48", "032"})
+        expect_words(refusal(device(), "clustered_samples", {{"tile_size", value}}), {"tile_size", value, "32, 16"});
+    expect_words(refusal(device(), "clustered_samples", {{"unique", "hash"}}), {"hash", "sort, page_table, bitmap"});
+    expect_words(refusal(device(), "clustered_samples", {{"bounds", "tight"}}), {"tight", "implicit, explicit"});
+    expect_words(refusal(device(), "clustered_samples", {{"fan_out", "64"}}), {"fan_out", "64", "32, 16, 8"});
+    expect_words(refusal(device(), "clustered_samples", {{"normals", "1"}}), {"normals", "off, on"});
+    expect_words(refusal(device(), "clustered_samples", {{"query", "list"}}), {"query", "clusters, hierarchy"});
     const OptionValues heuristic{{"producer", "paper"}, {"heuristic", "f"}};
     expect_words(refusal(device(), "hybrid_light_trees", heuristic), {"heuristic", "f", "a, b, c, d, e, lists"});
 }
@@ -77,6 +99,10 @@ TEST_F(TechniquesTest, options_that_contradict_each_other_are_refused) {
                  {"clustered", "cell_test=tight", "producer=paper"});
     expect_words(refusal(device(), "clustered", {{"loop", "wave"}, {"producer", "library"}}),
                  {"clustered", "loop=wave", "producer=paper"});
+    for (const auto& [key, value] :
+         OptionValues{{"tile_size", "16"}, {"normals", "off"}, {"unique", "sort"}, {"bounds", "explicit"}})
+        expect_words(refusal(device(), "clustered_samples", {{"query", "hierarchy"}, {key, value}}),
+                     {"clustered_samples", key, "query=clusters"});
 }
 
 // What only the paper's pipeline can do chooses it, and its other switches with it.
@@ -97,7 +123,7 @@ TEST_F(TechniquesTest, tight_cells_and_the_loop_of_waves_choose_the_producer) {
 
 TEST(Techniques, infos_name_every_technique_and_their_options) {
     const std::vector<TechniqueInfo> infos = technique_infos();
-    ASSERT_EQ(infos.size(), 7u);
+    ASSERT_EQ(infos.size(), 11u);
     EXPECT_EQ(infos[0].name, "brute_force");
     EXPECT_EQ(infos[1].name, "exact");
     for (const TechniqueInfo& info : infos) EXPECT_FALSE(info.summary.empty());

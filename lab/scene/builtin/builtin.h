@@ -10,5 +10,6 @@ Scene make_canyon(Detail detail);
 Scene make_citadel(Detail detail);
 Scene make_bars(Detail detail);
 Scene make_cornell(Detail detail);
+Scene make_blocktown(Detail detail);
 
 } // namespace manylights::lab

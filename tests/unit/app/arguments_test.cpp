@@ -26,6 +26,7 @@ TEST(Arguments, render_has_sensible_defaults_for_everything_but_the_file) {
     EXPECT_EQ(render.selectors.scene, "canyon");
     EXPECT_EQ(render.selectors.lights.count, 65536u);
     EXPECT_EQ(render.selectors.lights.distribution, "volume");
+    EXPECT_TRUE(render.selectors.scene_distribution);
     EXPECT_EQ(render.selectors.lights.radius, "auto");
     EXPECT_EQ(render.selectors.detail, Detail::full);
     EXPECT_EQ(render.selectors.width, 960u);
@@ -82,6 +83,7 @@ TEST(Arguments, render_takes_every_option) {
     EXPECT_EQ(render.selectors.width, 8192u);
     EXPECT_EQ(render.selectors.height, 1u);
     EXPECT_TRUE(render.selectors.size_given);
+    EXPECT_FALSE(render.selectors.scene_distribution);
     EXPECT_EQ(render.selectors.points, "b.points");
     EXPECT_EQ(render.selectors.detail, Detail::low);
     EXPECT_EQ(render.view, ViewKind::references);

@@ -97,6 +97,8 @@ INSTANTIATE_TEST_SUITE_P(All, BuiltinScene,
                                          Case{"citadel", Detail::low, 19999, 0x803bcf6e27f6834dull},
                                          Case{"bars", Detail::full, 300000, 0x311a5664703859b6ull},
                                          Case{"bars", Detail::low, 19999, 0x855945bb67c46366ull},
+                                         Case{"blocktown", Detail::full, 300000, 0xe8dc283c15bc6590ull},
+                                         Case{"blocktown", Detail::low, 19999, 0x481dc6ec950a4dc8ull},
                                          Case{"cornell", Detail::full, 100, 0x47454ab81220bd19ull}),
                          [](const testing::TestParamInfo<Case>& test) {
                              return std::string(test.param.name) +
@@ -117,6 +119,38 @@ TEST(BuiltinScenes, HaveTheirPublishedSizes) {
     EXPECT_EQ(citadel.view_extent, 3500.0f);
     EXPECT_EQ(citadel.radii.scale_cap, 2.0f);
     EXPECT_EQ(canyon.radii.scale_cap, 1.0f);
+}
+
+const Scene& blocktown() {
+    static const Scene scene = load_scene("blocktown");
+    return scene;
+}
+
+TEST(BuiltinScenes, BlocktownHasItsSizeItsGroupsAndWholeBlocks) {
+    const Scene& scene = blocktown();
+    EXPECT_EQ(scene.light_box.upper - scene.light_box.lower, glm::vec3(768, 128, 640));
+    EXPECT_EQ(scene.bounds.upper.x - scene.bounds.lower.x, 768.0f);
+    EXPECT_EQ(scene.bounds.upper.z - scene.bounds.lower.z, 640.0f);
+    EXPECT_LE(scene.bounds.upper.y, 128.0f);
+    EXPECT_EQ(scene.view_extent, 1000.0f);
+    EXPECT_EQ(scene.distribution, "groups");
+    EXPECT_EQ(load_scene("canyon", Detail::low).distribution, "volume");
+    for (const Vertex& vertex : scene.vertices) {
+        ASSERT_EQ(vertex.position, glm::floor(vertex.position)) << "not on the grid of blocks";
+    }
+}
+
+TEST(BuiltinScenes, BlocktownIsSeenFromFarAtTheStartTheMiddleAndTheEnd) {
+    const Scene& scene = blocktown();
+    const auto mean_distance = [&](std::size_t frame) {
+        double sum = 0.0;
+        const std::vector<SurfacePoint> points = visible_points(scene, scene.path[frame], 64, 36);
+        for (const SurfacePoint& point : points) sum += glm::length(point.position - scene.path[frame].position);
+        return sum / double(points.size());
+    };
+    for (const std::size_t frame : {0u, 1u, 7u, 8u, 14u, 15u}) EXPECT_GT(mean_distance(frame), 200.0) << frame;
+    for (const std::size_t frame : {2u, 3u, 4u, 5u, 6u, 9u, 10u, 11u, 12u, 13u})
+        EXPECT_LT(mean_distance(frame), 100.0) << frame;
 }
 
 TEST(BuiltinScenes, AreListedAndOthersRefusedByName) {

@@ -108,5 +108,26 @@ TEST(RadiusScale, IsTheSmallestThatReachesTheWantedNumberOfPairs) {
     EXPECT_EQ(find_radius_scale(points, {}, 6.0, 2.0f), 2.0f);
 }
 
+// A thousand groups of a thousand: published radii, and about as many lights at a point as elsewhere.
+TEST(RadiusAuto, LeavesTheRadiiOfBlocktownsMillion) {
+    const Scene scene = load_scene("blocktown");
+    const LightSet set = make_lights(scene, scene.cameras.front(), {1'000'000, "groups", 1, "auto"});
+    EXPECT_EQ(set.lights.size(), 1'000'000u);
+    EXPECT_EQ(set.radius_scale, 1.0f);
+    for (const Light& light : set.lights) ASSERT_TRUE(light.sphere.range >= 2.0f && light.sphere.range <= 6.0f);
+    std::size_t affecting = 0;
+    const std::vector<SurfacePoint> points = visible_points(scene, scene.cameras.front(), 16, 9);
+    for (const SurfacePoint& point : points) {
+        for (const Light& light : set.lights) {
+            const float *c = light.sphere.center, r = light.sphere.range;
+            const glm::vec3 d = point.position - glm::vec3(c[0], c[1], c[2]);
+            affecting += glm::dot(d, d) < r * r ? 1u : 0u;
+        }
+    }
+    const double mean = double(affecting) / double(points.size());
+    EXPECT_GT(mean, 1.0);
+    EXPECT_LT(mean, 10.0);
+}
+
 } // namespace
 } // namespace manylights::lab

@@ -1,0 +1,50 @@
+#include "lab/techniques/device/list_structure.h"
+
+#include <manylights/format.h>
+
+#include <array>
+#include <limits>
+#include <numeric>
+
+namespace manylights::lab {
+
+namespace {
+
+constexpr std::array<float, 2> kSliceEdges{0.0f, std::numeric_limits<float>::infinity()};
+
+MlView view_of(std::uint32_t width, std::uint32_t height, const TileGrid& grid) {
+    MlView view{};
+    view.width = width;
+    view.height = height;
+    view.tile_px = grid.tile_size;
+    view.tiles_x = grid.tiles_x;
+    view.tiles_y = grid.tiles_y;
+    view.slice_count = 1;
+    view.cell_count = grid.tile_count();
+    view.structure = ML_STRUCTURE_LISTS;
+    return view;
+}
+
+} // namespace
+
+ListStructure::ListStructure(gpu::Device& device)
+    : views_(device, "view of lists"), nodes_(device, "nodes of lists"),
+      slice_edges_(device, "slice edges of lists", std::span<const float>(kSliceEdges)) {}
+
+void ListStructure::fit(std::uint32_t width, std::uint32_t height, const TileGrid& grid) {
+    const MlView view = view_of(width, height, grid);
+    views_.fit(sizeof view);
+    views_.buffer().upload(std::span<const MlView>(&view, 1));
+    nodes_.fit(0);
+}
+
+std::vector<const gpu::Buffer*> ListStructure::buffers(const TileLists& lists) const {
+    return {&views_.buffer(), &slice_edges_, &lists.cells(), &nodes_.buffer(), &lists.references()};
+}
+
+std::uint64_t bytes_of(const std::vector<const gpu::Buffer*>& buffers) {
+    return std::accumulate(buffers.begin(), buffers.end(), std::uint64_t{0},
+                           [](std::uint64_t sum, const gpu::Buffer* buffer) { return sum + buffer->bytes(); });
+}
+
+} // namespace manylights::lab
