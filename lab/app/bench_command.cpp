@@ -8,19 +8,20 @@
 #include "lab/scene/error.h"
 #include "lab/suites/conditions.h"
 #include "lab/suites/csv.h"
-#include "lab/suites/runner.h"
+#include "lab/suites/journal.h"
 #include "lab/suites/suite.h"
 
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 
 namespace manylights::lab::app {
 namespace {
 
-using suites::Case;
-using suites::CaseResult;
 using suites::Row;
+using suites::Step;
+using suites::StepResult;
 
 std::string file_name(const BenchArguments& arguments, const char* ending) {
     return (std::filesystem::path(arguments.out) / (arguments.suite + ending)).string();
@@ -33,41 +34,37 @@ void make_folder(const std::string& path) {
         throw InputError(fmt::format("--out '{}': is no folder and cannot be made one", path));
 }
 
-/// What a case takes, in units that are about equal: a fixed share, and the lights' share.
-double weight(const Case& c) { return 1.0 + static_cast<double>(c.lights.count) / 262144.0; }
-
 struct Outcome {
     std::vector<Row> rows;
     std::vector<std::string> failures;
 
-    void add(const CaseResult& result) {
+    void add(const StepResult& result) {
         rows.insert(rows.end(), result.rows.begin(), result.rows.end());
         failures.insert(failures.end(), result.failures.begin(), result.failures.end());
     }
 };
 
-Outcome run_cases(const std::vector<Case>& cases, suites::Journal& journal, gpu::Device& device,
-                  const std::string& damaged) {
+Outcome run_steps(const std::vector<Step>& steps, suites::Journal& journal, suites::RunContext context) {
     RemainingTime remaining;
-    for (const Case& c : cases)
-        if (journal.find(case_id(c)) == nullptr) remaining.expect(weight(c));
+    for (const Step& step : steps)
+        if (journal.find(step.id) == nullptr) remaining.expect(step.weight);
     Progress progress;
     std::string now;
-    suites::Runner runner(device, {[&](const std::string& what) { progress.at(now + what); }, damaged});
+    context.say = [&](const std::string& what) { progress.at(now + what); };
     Outcome outcome;
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-        const std::string id = case_id(cases[i]);
-        now = fmt::format("{}/{}, {} left: {}: ", i + 1, cases.size(), remaining.text(), case_label(cases[i]));
-        if (journal.find(id) == nullptr) {
-            journal.add(id, runner.run(cases[i]));
-            remaining.done(weight(cases[i]));
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const Step& step = steps[i];
+        now = fmt::format("{}/{}, {} left: {}: ", i + 1, steps.size(), remaining.text(), step.label);
+        if (journal.find(step.id) == nullptr) {
+            journal.add(step.id, step.run(context));
+            remaining.done(step.weight);
         }
-        outcome.add(*journal.find(id));
+        outcome.add(*journal.find(step.id));
     }
     return outcome;
 }
 
-std::string report_text(const suites::Suite& suite, const Row& conditions, const suites::CaseList& list,
+std::string report_text(const suites::Suite& suite, const Row& conditions, const suites::StepList& list,
                         const Outcome& outcome) {
     std::string text =
         fmt::format("## {}\n\n{}\n\n{}\n", suite.name, suite.summary, suites::conditions_text(conditions));
@@ -82,10 +79,10 @@ std::string json_text(const Row& conditions, const std::vector<Row>& rows) {
     return text + "\n]}\n";
 }
 
-void write_files(const BenchArguments& arguments, const Row& conditions, const Outcome& outcome,
-                 const std::string& report) {
+void write_files(const BenchArguments& arguments, const suites::Suite& suite, const Row& conditions,
+                 const Outcome& outcome, const std::string& report) {
     write_text(file_name(arguments, ".json"), json_text(conditions, outcome.rows));
-    write_text(file_name(arguments, ".csv"), suites::csv_text(outcome.rows));
+    write_text(file_name(arguments, ".csv"), suites::csv_text(outcome.rows, suite.columns()));
     write_text(file_name(arguments, ".md"), report);
 }
 
@@ -93,18 +90,21 @@ void write_files(const BenchArguments& arguments, const Row& conditions, const O
 
 int run_bench(const BenchArguments& arguments) {
     const suites::Suite& suite = suites::find_suite(arguments.suite);
-    const suites::CaseList list = suite.cases(arguments.options);
-    gpu::Device device({arguments.device, arguments.validation});
+    const suites::StepList list = suite.steps(arguments.options);
+    std::optional<gpu::Device> device;
+    if (suite.needs_device) device.emplace(gpu::DeviceOptions{arguments.device, arguments.validation});
     make_folder(arguments.out);
-    const Row conditions = suites::conditions_of(suite.name, device.info());
-    suites::Journal journal(file_name(arguments, ".journal"), conditions, arguments.resume);
+    const Row conditions = suites::conditions_of(suite.name, device ? &device->info() : nullptr);
+    suites::Journal journal(file_name(arguments, ".journal"), conditions, suite.columns(), arguments.resume);
     for (const std::string& line : list.skipped) fmt::print(stderr, "manylights: {}\n", line);
-    const Outcome outcome = run_cases(list.cases, journal, device, arguments.remove_one_light);
+    const Outcome outcome =
+        run_steps(list.steps, journal, {device ? &*device : nullptr, {}, arguments.remove_one_light});
     const std::string report = report_text(suite, conditions, list, outcome);
-    write_files(arguments, conditions, outcome, report);
+    write_files(arguments, suite, conditions, outcome, report);
     fmt::print("{}", report);
     for (const std::string& failure : outcome.failures) fmt::print(stderr, "manylights: {}\n", failure);
-    return std::max(outcome.failures.empty() ? kDone : kCheckFailed, report_validation(device));
+    const int checked = outcome.failures.empty() ? kDone : kCheckFailed;
+    return device ? std::max(checked, report_validation(*device)) : checked;
 }
 
 } // namespace manylights::lab::app

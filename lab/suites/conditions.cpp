@@ -32,15 +32,18 @@ std::string compiler_name() {
 
 } // namespace
 
-Row conditions_of(const std::string& suite, const gpu::DeviceInfo& device) {
-    return {{"suite", suite},
-            {"version", fmt::format("{}.{}", MANYLIGHTS_VERSION_MAJOR, MANYLIGHTS_VERSION_MINOR)},
-            {"device", device.name},
-            {"driver", device.version},
-            {"software_device", device.is_software},
-            {"processor", processor_name()},
-            {"cores", std::thread::hardware_concurrency()},
-            {"compiler", compiler_name()}};
+Row conditions_of(const std::string& suite, const gpu::DeviceInfo* device) {
+    Row conditions = {{"suite", suite},
+                      {"version", fmt::format("{}.{}", MANYLIGHTS_VERSION_MAJOR, MANYLIGHTS_VERSION_MINOR)}};
+    if (device != nullptr) {
+        conditions["device"] = device->name;
+        conditions["driver"] = device->version;
+        conditions["software_device"] = device->is_software;
+    }
+    conditions["processor"] = processor_name();
+    conditions["cores"] = std::thread::hardware_concurrency();
+    conditions["compiler"] = compiler_name();
+    return conditions;
 }
 
 std::string conditions_text(const Row& conditions) {

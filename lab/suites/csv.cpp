@@ -1,7 +1,5 @@
 #include "lab/suites/csv.h"
 
-#include "lab/suites/schema.h"
-
 #include <fmt/format.h>
 
 namespace manylights::lab::suites {
@@ -48,13 +46,13 @@ std::string line_of(const std::vector<std::string>& cells) { return fmt::format(
 
 } // namespace
 
-std::string csv_text(std::span<const Row> rows) {
+std::string csv_text(std::span<const Row> rows, std::span<const Column> columns) {
     std::vector<std::string> cells;
-    for (const Column& column : schema()) add_titles(cells, column);
+    for (const Column& column : columns) add_titles(cells, column);
     std::string text = line_of(cells);
     for (const Row& row : rows) {
         cells.clear();
-        for (const Column& column : schema()) add_cells(cells, column, row.at(column.key));
+        for (const Column& column : columns) add_cells(cells, column, row.at(column.key));
         text += line_of(cells);
     }
     return text;

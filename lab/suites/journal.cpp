@@ -2,7 +2,6 @@
 
 #include "lab/renderer/unfinished_file.h"
 #include "lab/scene/error.h"
-#include "lab/suites/schema.h"
 
 #include <fmt/format.h>
 
@@ -22,7 +21,8 @@ std::string read_whole(const std::string& path) {
 
 } // namespace
 
-Journal::Journal(std::string path, const Row& header, bool resume) : path_(std::move(path)) {
+Journal::Journal(std::string path, const Row& header, std::span<const Column> columns, bool resume)
+    : path_(std::move(path)), columns_(columns) {
     if (resume && std::filesystem::exists(path_))
         read(header);
     else
@@ -55,9 +55,9 @@ void Journal::read_line(const std::string& line, std::size_t number) {
     check(entry.is_object() && entry.contains("case") && entry["case"].is_string(), "must hold a case");
     check(entry.contains("rows") && entry["rows"].is_array(), "must hold rows");
     check(entry.contains("failures") && entry["failures"].is_array(), "must hold failures");
-    CaseResult result;
+    StepResult result;
     for (const Row& row : entry["rows"]) {
-        check(row_fault(row).empty(), row_fault(row));
+        check(row_fault(row, columns_).empty(), row_fault(row, columns_));
         result.rows.push_back(row);
     }
     for (const Row& failure : entry["failures"]) {
@@ -67,12 +67,12 @@ void Journal::read_line(const std::string& line, std::size_t number) {
     results_[entry["case"]] = std::move(result);
 }
 
-const CaseResult* Journal::find(const std::string& id) const {
+const StepResult* Journal::find(const std::string& id) const {
     const auto found = results_.find(id);
     return found == results_.end() ? nullptr : &found->second;
 }
 
-void Journal::add(const std::string& id, const CaseResult& result) {
+void Journal::add(const std::string& id, const StepResult& result) {
     append({{"case", id}, {"rows", result.rows}, {"failures", result.failures}});
     results_[id] = result;
 }

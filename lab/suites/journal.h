@@ -1,33 +1,29 @@
 #pragma once
-// What a suite has measured so far, a line of JSON per case, written as soon as the case is done: a run that is stopped
+// What a suite has measured so far, a line of JSON per step, written as soon as the step is done: a run that is stopped
 // at any moment goes on where it was.
 //
 //     {"suite": ..., "version": ..., "device": ..., ...}      what all rows have in common
-//     {"case": case_id, "rows": [...], "failures": [...]}     one per case
+//     {"case": Step::id, "rows": [...], "failures": [...]}     one per step
 //
-// A last line without its end is a case that was being written when the run was stopped; it is measured again.
+// A last line without its end is a step that was being written when the run was stopped; it is measured again.
 
-#include "lab/suites/row.h"
+#include "lab/suites/schema.h"
+#include "lab/suites/step.h"
 
 #include <map>
 
 namespace manylights::lab::suites {
 
-struct CaseResult {
-    std::vector<Row> rows;
-    std::vector<std::string> failures; ///< a line for each technique whose light sets are wrong
-};
-
 class Journal {
   public:
     /// resume: goes on with the file where there is one. Throws InputError where it cannot be written, where its first
     /// line is not this header (rows of different devices or versions are not mixed), or where it is damaged.
-    Journal(std::string path, const Row& header, bool resume);
+    Journal(std::string path, const Row& header, std::span<const Column> columns, bool resume);
 
-    /// Null where the case has not been measured.
-    const CaseResult* find(const std::string& id) const;
+    /// Null where the step has not been measured.
+    const StepResult* find(const std::string& id) const;
     /// Throws InputError where the line cannot be written.
-    void add(const std::string& id, const CaseResult& result);
+    void add(const std::string& id, const StepResult& result);
 
   private:
     void read(const Row& header);
@@ -36,7 +32,8 @@ class Journal {
     [[noreturn]] void refuse(const std::string& why) const;
 
     std::string path_;
-    std::map<std::string, CaseResult> results_;
+    std::span<const Column> columns_;
+    std::map<std::string, StepResult> results_;
 };
 
 } // namespace manylights::lab::suites

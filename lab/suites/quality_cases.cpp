@@ -1,29 +1,13 @@
-#include "lab/scene/error.h"
 #include "lab/suites/quality.h"
-
-#include <fmt/format.h>
+#include "lab/suites/runner.h"
+#include "lab/suites/suite_scenes.h"
 
 #include <algorithm>
-#include <filesystem>
+#include <memory>
+#include <optional>
 
 namespace manylights::lab::suites {
 namespace {
-
-struct QualityScene {
-    const char* key; ///< what --scenes selects it by
-    const char* name;
-    const char* file; ///< in the folder of real scenes; null: built in
-    const char* distribution;
-    bool is_overlap = false; ///< each light covers tens of tiles: one number of lights, and the cameras alone
-};
-
-// Lights in the volume or near surfaces, as algorithms and papers measured scenes of their kinds, and lights of 0.5 to
-// 5 m spread evenly over 200 m of the view.
-constexpr QualityScene kScenes[] = {{"canyon", "canyon", nullptr, "volume"},
-                                    {"citadel", "citadel", nullptr, "surface"},
-                                    {"bars", "bars", nullptr, "volume"},
-                                    {"sponza", "sponza", "sponza/sponza.glb", "surface"},
-                                    {"view", "canyon", nullptr, "view", true}};
 
 constexpr std::uint32_t kCameras = 4, kPathFrames = 16;
 
@@ -132,45 +116,18 @@ void add_cases(std::vector<Case>& cases, const Case& scene_case, const Plan& pla
     }
 }
 
-std::vector<QualityScene> scenes_of(const SuiteOptions& options) {
-    std::vector<QualityScene> scenes;
-    for (const QualityScene& scene : kScenes)
-        if (options.scenes.empty() ||
-            std::find(options.scenes.begin(), options.scenes.end(), scene.key) != options.scenes.end())
-            scenes.push_back(scene);
-    return scenes;
-}
-
-template <typename Known>
-void check_names(const char* option, const std::vector<std::string>& names, const Known& known) {
-    for (const std::string& name : names)
-        if (std::find(known.begin(), known.end(), name) == known.end())
-            throw InputError(fmt::format("{} '{}': must be one of {}", option, name, fmt::join(known, ", ")));
-}
-
-void check_options(const SuiteOptions& options) {
-    std::vector<std::string> scenes;
-    for (const QualityScene& scene : kScenes) scenes.emplace_back(scene.key);
-    check_names("--scenes", options.scenes, scenes);
-    check_names("--views", options.views, std::vector<std::string>{"cameras", "path"});
-}
+/// What a case takes, in units that are about equal: a fixed share, and the lights' share.
+double weight(const Case& c) { return 1.0 + static_cast<double>(c.lights.count) / 262144.0; }
 
 } // namespace
 
 CaseList quality_cases(const SuiteOptions& options) {
-    check_options(options);
+    check_names("--views", options.views, {"cameras", "path"});
     const Plan plan = plan_of(options);
     CaseList list;
-    for (const QualityScene& scene : scenes_of(options)) {
+    for (const SuiteScene& scene : select_scenes(options, list.skipped)) {
         Case c;
-        c.scene = {scene.name, scene.name, options.detail};
-        if (scene.file != nullptr) {
-            c.scene.source = (std::filesystem::path(options.scene_folder) / scene.file).string();
-            if (!std::filesystem::exists(c.scene.source)) {
-                list.skipped.push_back(fmt::format("{}: skipped, for {} is not there", scene.name, c.scene.source));
-                continue;
-            }
-        }
+        c.scene = scene_choice(scene, options);
         c.lights.distribution = scene.distribution;
         c.width = plan.width;
         c.height = plan.height;
@@ -178,6 +135,20 @@ CaseList quality_cases(const SuiteOptions& options) {
         add_cases(list.cases, c, scene.is_overlap ? overlap_plan(plan, options) : plan);
     }
     return list;
+}
+
+StepList quality_steps(const SuiteOptions& options) {
+    CaseList list = quality_cases(options);
+    StepList steps{{}, std::move(list.skipped)};
+    // One runner for all, made by the first step: it keeps scene, lights and points.
+    const auto runner = std::make_shared<std::optional<Runner>>();
+    for (const Case& c : list.cases)
+        steps.steps.push_back({case_id(c), case_label(c), weight(c), [c, runner](const RunContext& context) {
+                                   if (!*runner)
+                                       runner->emplace(*context.device, context.say, context.remove_one_light);
+                                   return (*runner)->run(c);
+                               }});
+    return steps;
 }
 
 } // namespace manylights::lab::suites

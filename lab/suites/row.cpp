@@ -9,14 +9,6 @@
 namespace manylights::lab::suites {
 namespace {
 
-Row times(const std::vector<double>& ms) {
-    if (ms.empty()) return no_times();
-    return {{"min", *std::min_element(ms.begin(), ms.end())},
-            {"median", median(ms)},
-            {"max", *std::max_element(ms.begin(), ms.end())},
-            {"repeats", ms.size()}};
-}
-
 Row options_object(const OptionValues& options) {
     Row object = Row::object();
     for (const auto& [key, value] : options) object[key] = value;
@@ -25,7 +17,7 @@ Row options_object(const OptionValues& options) {
 
 Row stages_object(const std::vector<NamedTimes>& stages) {
     Row object = Row::object();
-    for (const NamedTimes& stage : stages) object[stage.name] = times(stage.ms);
+    for (const NamedTimes& stage : stages) object[stage.name] = times_of(stage.ms);
     return object;
 }
 
@@ -76,11 +68,11 @@ void add_waves(Row& row, const WaveSummary& waves) {
 void add_structure(Row& row, const Measurement& m) {
     row["references"] = m.stats.references;
     row["structure_bytes"] = m.stats.structure_bytes;
-    row["build_ms"] = times(m.stats.build_ms);
-    row["cold_build_ms"] = times(m.cold_build_ms);
+    row["build_ms"] = times_of(m.stats.build_ms);
+    row["cold_build_ms"] = times_of(m.cold_build_ms);
     row["stages_ms"] = stages_object(m.stats.stages);
-    row["shade_ms"] = times(m.stats.shade_ms);
-    row["shade_over_exact"] = times(m.shade_over_exact);
+    row["shade_ms"] = times_of(m.stats.shade_ms);
+    row["shade_over_exact"] = times_of(m.shade_over_exact);
     row["light_set_hash"] = fmt::format("{:016x}", m.light_set_hash);
 }
 

@@ -16,16 +16,16 @@ struct Runner::Truth {
     std::string failure;              ///< why the lists are no truth; empty: they are
 };
 
-Runner::Runner(gpu::Device& device, RunnerOptions options)
-    : device_(device), options_(std::move(options)), source_(device) {}
+Runner::Runner(gpu::Device& device, Say say, std::string remove_one_light)
+    : device_(device), say_(std::move(say)), remove_one_light_(std::move(remove_one_light)), source_(device) {}
 
 Runner::Truth Runner::find_truth(const Frame& frame) {
-    options_.say("finding the lights of every point");
+    say_("finding the lights of every point");
     const std::vector<PointPosition> positions = frame.points.download_positions();
     Truth truth;
     truth.lists = find_point_lists(frame, positions);
-    if (options_.remove_one_light == kGridOracle) remove_one_light(truth.lists, positions);
-    options_.say("testing every light at some of the points");
+    if (remove_one_light_ == kGridOracle) remove_one_light(truth.lists, positions);
+    say_("testing every light at some of the points");
     const ListCheck check = check_lists(frame, truth.lists, positions);
     if (check.first_wrong)
         truth.failure = fmt::format("the grid oracle differs from brute force at pixel ({}, {})",
@@ -56,19 +56,19 @@ void Runner::count_work(TimedTechnique& timed, const Frame& frame, const Truth& 
 }
 
 TimedTechnique Runner::measure(const TechniqueChoice& choice, const Frame& frame, const Truth& truth) {
-    options_.say(choice.name);
+    say_(choice.name);
     TimedTechnique timed;
     timed.technique = make_technique(device_, choice.name, choice.options);
     timed.measurement.technique = choice.name;
     timed.measurement.options = choice.options;
     timed.technique->prepare(frame);
-    if (choice.name == options_.remove_one_light) timed.technique->remove_one_reference(frame);
+    if (choice.name == remove_one_light_) timed.technique->remove_one_reference(frame);
     count_work(timed, frame, truth);
     return timed;
 }
 
-CaseResult Runner::run(const Case& c) {
-    options_.say("drawing the points");
+StepResult Runner::run(const Case& c) {
+    say_("drawing the points");
     const Frame& drawn = source_.frame(c);
     const Truth truth = find_truth(drawn);
     Frame frame = drawn;
@@ -76,10 +76,10 @@ CaseResult Runner::run(const Case& c) {
 
     std::vector<TimedTechnique> techniques;
     for (const TechniqueChoice& choice : c.techniques) techniques.push_back(measure(choice, frame, truth));
-    options_.say("timing");
+    say_("timing");
     time_techniques(techniques, frame, c.rounds);
 
-    CaseResult result;
+    StepResult result;
     for (TimedTechnique& timed : techniques) {
         if (!truth.failure.empty()) {
             timed.failure = fmt::format("{}: {}", timed.measurement.technique, truth.failure);

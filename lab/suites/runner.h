@@ -1,30 +1,21 @@
 #pragma once
 // Runs a suite's cases: the truth of each view, every technique held to it, its work counted, its times taken in turn.
 
-#include "lab/suites/journal.h"
+#include "lab/suites/step.h"
 #include "lab/suites/timing.h"
 #include "lab/suites/view_source.h"
 
-#include <functional>
-
 namespace manylights::lab::suites {
-
-/// Says what long work is at.
-using Say = std::function<void(const std::string& what)>;
-
-struct RunnerOptions {
-    Say say;
-    std::string remove_one_light; ///< technique to damage on purpose, or kGridOracle; empty: none
-};
 
 class Runner {
   public:
-    Runner(gpu::Device& device, RunnerOptions options);
+    /// remove_one_light: see RunContext.
+    Runner(gpu::Device& device, Say say, std::string remove_one_light);
 
     /// A row per technique. One whose light sets differ from the truth's at any point has a row without figures and a
     /// line in failures. The truth is the grid oracle's, checked against brute force in every case: where that check
     /// fails, no technique has figures.
-    CaseResult run(const Case& c);
+    StepResult run(const Case& c);
 
   private:
     struct Truth;
@@ -33,7 +24,8 @@ class Runner {
     void count_work(TimedTechnique& timed, const Frame& frame, const Truth& truth);
 
     gpu::Device& device_;
-    RunnerOptions options_;
+    Say say_;
+    std::string remove_one_light_;
     ViewSource source_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The columns of a row, in order: what kind of value each holds, and whether it may be missing.
+// The columns of rows, in order: what kind of value each holds, and whether it may be missing.
 
 #include "lab/suites/row.h"
 
@@ -23,12 +23,16 @@ struct Column {
     Row empty_value() const;
 };
 
+/// Of what techniques do in a view (make_row). Suites that measure something else have columns of their own.
 std::span<const Column> schema();
 
 /// The times of what was not measured.
 Row no_times();
 
+/// Those of what was.
+Row times_of(const std::vector<double>& values);
+
 /// What is wrong with a row, by key and rule; empty: nothing.
-std::string row_fault(const Row& row);
+std::string row_fault(const Row& row, std::span<const Column> columns);
 
 } // namespace manylights::lab::suites

@@ -1,6 +1,7 @@
 #include "lab/suites/suite.h"
 
 #include "lab/scene/error.h"
+#include "lab/suites/build.h"
 #include "lab/suites/quality.h"
 
 #include <fmt/format.h>
@@ -9,8 +10,10 @@ namespace manylights::lab::suites {
 namespace {
 
 constexpr Suite kSuites[] = {
-    {"quality", "lights tested, structure, modelled wave cost and shading time of all techniques in four scenes",
-     quality_cases, quality_tables},
+    {"quality", "lights tested, structure, modelled wave cost and shading time of all techniques in four scenes", true,
+     schema, quality_steps, quality_tables},
+    {"build", "build times of the library's structures beside the paper's pipeline and the floor of the machine", false,
+     build_columns, build_steps, build_tables},
 };
 
 } // namespace

@@ -1,9 +1,9 @@
 #pragma once
-// The suites: each a list of cases, and the tables that its rows are read by. One file per suite, one line in
-// suite.cpp.
+// The suites: each a list of steps, and the tables that its rows are read by. One line per suite in suite.cpp.
 
-#include "lab/suites/case.h"
-#include "lab/suites/row.h"
+#include "lab/scene/scene.h"
+#include "lab/suites/schema.h"
+#include "lab/suites/step.h"
 
 namespace manylights::lab::suites {
 
@@ -20,16 +20,13 @@ struct SuiteOptions {
     std::string scene_folder;     ///< where real scenes lie
 };
 
-struct CaseList {
-    std::vector<Case> cases;
-    std::vector<std::string> skipped; ///< a line for each scene that is not there
-};
-
 struct Suite {
     const char* name;
     const char* summary;
+    bool needs_device;
+    std::span<const Column> (*columns)(); ///< of its rows
     /// Throws InputError where an option names what the suite does not have.
-    CaseList (*cases)(const SuiteOptions& options);
+    StepList (*steps)(const SuiteOptions& options);
     std::string (*tables)(std::span<const Row> rows); ///< Markdown
 };
 

@@ -131,10 +131,50 @@ class Bench(BenchTest):
         self.assertEqual(self.rows(), [])
 
 
+class BenchBuild(CommandTest):
+    RUN = ["bench", "build", "--scenes", "bars", *VIEW, "--lights", "0,900", "--repeat", "2", "--out", "out"]
+    ONE_THREAD = ["paper hybrid 48", "hybrid 48", "trees 48", "lists 48", "windows 48", "windows 32", "windows chosen", "floor"]
+
+    def rows(self):
+        with open(self.path("out/build.json")) as file:
+            return json.load(file)["rows"]
+
+    def test_a_row_per_builder_with_ratios_of_rounds(self):
+        done = self.assert_done(*self.RUN, "--device", "no such card")  # it needs none
+        rows = self.rows()
+        for lights in (0, 900):
+            names = [row["builder"] for row in rows if row["lights"] == lights and row["threads"] == 1]
+            self.assertEqual(names, self.ONE_THREAD)
+        for row in rows:
+            self.assertEqual(row["build_ms"]["repeats"], 2)
+            self.assertEqual(row["cold_build_ms"]["repeats"], 2)
+            self.assertEqual(row["one_thread_over_this"]["repeats"], 2 if row["threads"] == 2 else 0)
+            self.assertEqual(row["references"] > 0, row["lights"] > 0, row["builder"])
+            if row["builder"] == "paper hybrid 48":
+                self.assertEqual(row["paper_over_this"], {"min": 1, "median": 1, "max": 1, "repeats": 2})
+        with open(self.path("out/build.md")) as file:
+            self.assertEqual(file.read(), done.stdout)
+
+    def test_a_second_thread_builds_the_same(self):
+        self.assert_done(*self.RUN)
+        keys = ("builder", "tile_px", "visible_lights", "references", "structure_bytes")
+        built = {tuple(row[key] for key in keys) for row in self.rows() if row["lights"] == 900}
+        self.assertEqual(len(built), len(self.ONE_THREAD))
+
+    def test_what_is_complete_is_not_timed_again(self):
+        self.assert_done(*self.RUN)
+        before = self.rows()
+        self.assert_done(*self.RUN, "--resume")
+        self.assertEqual(self.rows(), before)
+
+
 class BenchRefusals(BenchTest):
     def test_bad_options_are_refused_before_anything_is_made(self):
         for arguments, pattern in (
-            (["nothing", "--out", "out"], r"suite 'nothing': must be one of quality"),
+            (["nothing", "--out", "out"], r"suite 'nothing': must be one of quality, build"),
+            (["build", "--out", "out", "--techniques", "exact"], r"--techniques 'exact': the suite build has none"),
+            (["build", "--out", "out", "--views", "path"], r"--views 'path': the suite build has none"),
+            (["build", "--out", "out", "--scenes", "moon"], r"--scenes 'moon': must be one of canyon, "),
             (["quality"], r"--out is required"),
             (["--out", "out"], r"suite is required"),
             (["quality", "--out", "/proc/none"], r"--out '/proc/none': is no folder and cannot be made one"),

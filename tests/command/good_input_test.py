@@ -172,7 +172,7 @@ class List(CommandTest):
         for what, names in {
                 "scenes": ("cornell", "bars", "canyon", "citadel", "blocktown"),
                 "techniques": ("brute_force", "exact", *CELLS),
-                "suites": ("quality",),
+                "suites": ("quality", "build"),
         }.items():
             lines = self.assert_done("list", what).stdout.splitlines()
             for name in names:

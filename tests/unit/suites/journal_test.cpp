@@ -32,7 +32,7 @@ class JournalTest : public testing::Test {
     void write(const std::string& text) const { std::ofstream(path_, std::ios::binary) << text; }
     std::string refusal(const Row& header = kHeader) const {
         try {
-            Journal(path_, header, true);
+            Journal(path_, header, schema(), true);
         } catch (const InputError& error) {
             return error.what();
         }
@@ -43,33 +43,33 @@ class JournalTest : public testing::Test {
 };
 
 TEST_F(JournalTest, gives_back_what_was_added_when_it_is_resumed) {
-    const CaseResult result{{sample_row("clustered"), sample_row("exact")}, {"clustered: lost a light"}};
-    Journal(path_, kHeader, false).add("a", result);
-    Journal resumed(path_, kHeader, true);
+    const StepResult result{{sample_row("clustered"), sample_row("exact")}, {"clustered: lost a light"}};
+    Journal(path_, kHeader, schema(), false).add("a", result);
+    Journal resumed(path_, kHeader, schema(), true);
     ASSERT_NE(resumed.find("a"), nullptr);
     EXPECT_EQ(resumed.find("a")->rows, result.rows);
     EXPECT_EQ(resumed.find("a")->failures, result.failures);
     EXPECT_EQ(resumed.find("b"), nullptr);
     resumed.add("b", {});
-    EXPECT_NE(Journal(path_, kHeader, true).find("b"), nullptr);
+    EXPECT_NE(Journal(path_, kHeader, schema(), true).find("b"), nullptr);
 }
 
 TEST_F(JournalTest, starts_anew_without_resume_and_where_there_is_no_file) {
-    Journal(path_, kHeader, true).add("a", {});
-    EXPECT_EQ(Journal(path_, kHeader, false).find("a"), nullptr);
-    EXPECT_EQ(Journal(path_, kHeader, true).find("a"), nullptr);
+    Journal(path_, kHeader, schema(), true).add("a", {});
+    EXPECT_EQ(Journal(path_, kHeader, schema(), false).find("a"), nullptr);
+    EXPECT_EQ(Journal(path_, kHeader, schema(), true).find("a"), nullptr);
 }
 
 // Stopped after any byte: the complete lines count, and the file goes on behind them.
 TEST_F(JournalTest, a_line_that_was_being_written_is_dropped) {
-    Journal journal(path_, kHeader, false);
+    Journal journal(path_, kHeader, schema(), false);
     journal.add("a", {{sample_row()}, {}});
     const std::string first = text();
     journal.add("b", {{sample_row()}, {}});
     const std::string both = text();
     for (std::size_t length = first.size(); length < both.size(); length += 97) {
         write(both.substr(0, length));
-        Journal resumed(path_, kHeader, true);
+        Journal resumed(path_, kHeader, schema(), true);
         EXPECT_NE(resumed.find("a"), nullptr);
         EXPECT_EQ(resumed.find("b"), nullptr);
         resumed.add("b", {{sample_row()}, {}});
@@ -78,7 +78,7 @@ TEST_F(JournalTest, a_line_that_was_being_written_is_dropped) {
 }
 
 TEST_F(JournalTest, rows_of_another_device_are_not_mixed_in) {
-    Journal(path_, kHeader, false).add("a", {});
+    Journal(path_, kHeader, schema(), false).add("a", {});
     EXPECT_EQ(refusal({{"suite", "quality"}, {"device", "other"}}),
               "--resume '" + path_ + "': device is \"card\", must be \"other\": rows of different runs are not mixed");
 }
@@ -98,7 +98,7 @@ TEST_F(JournalTest, damage_is_refused_by_line_and_rule) {
 }
 
 TEST_F(JournalTest, a_file_that_cannot_be_written_is_refused_by_name) {
-    EXPECT_THROW(Journal("/no/such/folder/a", kHeader, false), InputError);
+    EXPECT_THROW(Journal("/no/such/folder/a", kHeader, schema(), false), InputError);
 }
 
 } // namespace
