@@ -29,10 +29,7 @@ class PaperContender : public Contender {
     }
     BuildCounts counts() const override {
         const paper::Buffers& b = *buffers_;
-        return {options_.tile_px,
-                b.cells.size() / (b.slice_edges.size() - 1),
-                b.visible_lights,
-                b.references.size(),
+        return {options_.tile_px, b.cells.size() / (b.slice_edges.size() - 1), b.visible_lights, b.references.size(),
                 b.views.size_bytes() + b.slice_edges.size_bytes() + b.cells.size_bytes() + b.nodes.size_bytes() +
                     b.references.size_bytes()};
     }
@@ -61,7 +58,8 @@ class Memory {
 
 class LibraryContender : public Contender {
   public:
-    explicit LibraryContender(const BuilderChoice& choice) : has_windows_(choice.structure == MANYLIGHTS_STRUCTURE_WINDOWS) {
+    explicit LibraryContender(const BuilderChoice& choice)
+        : has_windows_(choice.structure == MANYLIGHTS_STRUCTURE_WINDOWS) {
         ManylightsSettings settings = make_settings();
         settings.structure = choice.structure;
         settings.tile_px = choice.tile_px;
@@ -107,7 +105,8 @@ class FloorContender : public Contender {
     }
     void build(const BuildFrame& frame) override {
         const std::uint32_t sum = read(frame.spheres);
-        for (std::uint64_t i = 0; i < stream_.size(); ++i) stream_[i] = {tile_of(i), sum + static_cast<std::uint32_t>(i)};
+        for (std::uint64_t i = 0; i < stream_.size(); ++i)
+            stream_[i] = {tile_of(i), sum + static_cast<std::uint32_t>(i)};
         std::copy(begins_.begin(), begins_.end() - 1, cursors_.begin());
         for (const Record& record : stream_) scattered_[cursors_[record.tile]++] = record;
     }

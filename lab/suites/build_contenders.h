@@ -25,9 +25,9 @@ struct BuildCounts {
 
 /// What a builder is.
 struct BuilderChoice {
-    std::string_view name;      ///< of a structure, or "paper hybrid", "floor"
-    std::uint32_t structure;    ///< a ManylightsStructure; 0 where it is none of the library's
-    std::uint32_t tile_px;      ///< 0: as the library chooses
+    std::string_view name;   ///< of a structure, or "paper hybrid", "floor"
+    std::uint32_t structure; ///< a ManylightsStructure; 0 where it is none of the library's
+    std::uint32_t tile_px;   ///< 0: as the library chooses
     std::uint32_t threads;
 };
 
@@ -45,8 +45,8 @@ std::unique_ptr<Contender> make_paper_contender();
 /// With threads > 1 its work runs on an arena of oneTBB of so many.
 std::unique_ptr<Contender> make_library_contender(const BuilderChoice& choice);
 
-/// What no builder of these references can spare: each light is read once, each reference is written once as 8 bytes, and
-/// scattered once to its tile. Where a reference goes is a hash of its number: lights, too, are in no order.
+/// What no builder of these references can spare: each light is read once, each reference is written once as 8 bytes,
+/// and scattered once to its tile. Where a reference goes is a hash of its number: lights, too, are in no order.
 std::unique_ptr<Contender> make_floor_contender(const BuildCounts& of);
 
 /// Whether there is something to run two threads on.

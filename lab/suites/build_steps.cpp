@@ -15,9 +15,8 @@ struct Plan {
 };
 
 Plan plan_of(const SuiteOptions& options) {
-    Plan plan = options.quick
-                    ? Plan{480, 270, {0, 256, 4096, 65536}, {3, 5}}
-                    : Plan{1920, 1080, {0, 1, 16, 64, 256, 1024, 8192, 65536, 262144, 1048576}, {9, 20}};
+    Plan plan = options.quick ? Plan{480, 270, {0, 256, 4096, 65536}, {3, 5}}
+                              : Plan{1920, 1080, {0, 1, 16, 64, 256, 1024, 8192, 65536, 262144, 1048576}, {9, 20}};
     if (options.width != 0) plan.width = options.width, plan.height = options.height;
     if (!options.lights.empty()) plan.lights = options.lights;
     if (options.repeat != 0) plan.rounds.blocks = options.repeat;

@@ -61,7 +61,8 @@ Table table_of(const Group& group, const std::string& title, const Cell& cell) {
             const Row* row = group.find(builder, count);
             cells.push_back(row != nullptr ? cell(group, *row) : "");
         }
-        const bool is_empty = std::all_of(cells.begin() + 1, cells.end(), [](const auto& text) { return text.empty(); });
+        const bool is_empty =
+            std::all_of(cells.begin() + 1, cells.end(), [](const auto& text) { return text.empty(); });
         if (!is_empty) table.add(cells);
     }
     return table;

@@ -40,17 +40,15 @@ struct Timed {
     std::vector<double> warm, cold; ///< milliseconds, one per round; of a block: its median
 };
 
-constexpr std::uint32_t kNoStructure = 0;      // of the library
-constexpr std::string_view kFloorOf = "windows 48";    // whose references the floor writes
+constexpr std::uint32_t kNoStructure = 0;           // of the library
+constexpr std::string_view kFloorOf = "windows 48"; // whose references the floor writes
 
 std::vector<BuilderChoice> library_choices() {
     std::vector<BuilderChoice> choices;
-    const BuilderChoice one_thread[] = {{"hybrid 48", MANYLIGHTS_STRUCTURE_HYBRID, 48, 1},
-                                        {"trees 48", MANYLIGHTS_STRUCTURE_TREES, 48, 1},
-                                        {"lists 48", MANYLIGHTS_STRUCTURE_LISTS, 48, 1},
-                                        {"windows 48", MANYLIGHTS_STRUCTURE_WINDOWS, 48, 1},
-                                        {"windows 32", MANYLIGHTS_STRUCTURE_WINDOWS, 32, 1},
-                                        {"windows chosen", MANYLIGHTS_STRUCTURE_WINDOWS, 0, 1}};
+    const BuilderChoice one_thread[] = {
+        {"hybrid 48", MANYLIGHTS_STRUCTURE_HYBRID, 48, 1},   {"trees 48", MANYLIGHTS_STRUCTURE_TREES, 48, 1},
+        {"lists 48", MANYLIGHTS_STRUCTURE_LISTS, 48, 1},     {"windows 48", MANYLIGHTS_STRUCTURE_WINDOWS, 48, 1},
+        {"windows 32", MANYLIGHTS_STRUCTURE_WINDOWS, 32, 1}, {"windows chosen", MANYLIGHTS_STRUCTURE_WINDOWS, 0, 1}};
     for (const BuilderChoice& choice : one_thread) {
         choices.push_back(choice);
         if (has_threads()) choices.push_back({choice.name, choice.structure, choice.tile_px, 2});
