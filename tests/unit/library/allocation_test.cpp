@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 
@@ -21,10 +22,11 @@ void* count_and_allocate(std::size_t bytes) {
 
 } // namespace
 
-// The other forms of the standard library lead to these.
-void* operator new(std::size_t bytes) { return count_and_allocate(bytes); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+// The other forms of the standard library lead to these. Never inlined: where only one of a pair is, GCC sees `free`
+// meet what `new` returned and takes it for an error (-Wmismatched-new-delete).
+[[gnu::noinline]] void* operator new(std::size_t bytes) { return count_and_allocate(bytes); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace manylights::test {
 namespace {
