@@ -2,6 +2,7 @@
 #include "src/build/cells.h"
 #include "src/build/lanes.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <limits>
@@ -11,6 +12,8 @@
 #include <hwy/foreach_target.h>
 // foreach_target comes first.
 #include <hwy/highway.h>
+
+#include "src/build/compaction-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace manylights::detail::HWY_NAMESPACE {
@@ -26,28 +29,48 @@ constexpr hn::ScalableTag<std::int32_t> kI;
 
 HWY_INLINE Mask reaches(Floats low, Floats high, Floats begin, Floats end) { return hn::And(high >= begin, low < end); }
 
+// As many slices take each step together whatever a vector holds: the default number of them is done in one walk.
+constexpr std::uint32_t kTogether = 16;
+constexpr std::uint32_t kVectors = kTogether / static_cast<std::uint32_t>(hn::MaxLanes(kF));
+static_assert(kVectors * hn::MaxLanes(kF) == kTogether && kTogether <= kLanePadding);
+
+// Where slices begin and end.
+struct SliceBounds {
+    Floats begin, end;
+};
+HWY_INLINE void load_bounds(const float* begin, const float* end, SliceBounds (&bounds)[kVectors]) {
+    for (std::size_t v = 0; v < kVectors; ++v)
+        bounds[v] = {hn::LoadU(kF, begin + v * hn::Lanes(kF)), hn::LoadU(kF, end + v * hn::Lanes(kF))};
+}
+
 // In order, so that each slice's sum is the same with every vector.
 HWY_INLINE void sum_some(const SliceLanes& slices, std::uint32_t s, const RecordRun* runs, std::uint32_t run_count,
                          SliceSums& sums) {
-    const Floats begin = hn::LoadU(kF, slices.begin + s);
-    const Floats end = hn::LoadU(kF, slices.end + s);
-    const Floats near_depth = hn::LoadU(kF, slices.near_depth + s);
-    const Floats far_depth = hn::LoadU(kF, slices.far_depth + s);
-    Words counts = hn::Zero(kW);
-    Floats depths = hn::Zero(kF);
+    SliceBounds bounds[kVectors], depth_bounds[kVectors];
+    load_bounds(slices.begin + s, slices.end + s, bounds);
+    load_bounds(slices.near_depth + s, slices.far_depth + s, depth_bounds);
+    Words counts[kVectors];
+    Floats depths[kVectors];
+    std::fill_n(counts, kVectors, hn::Zero(kW));
+    std::fill_n(depths, kVectors, hn::Zero(kF));
     for (std::uint32_t k = 0; k < run_count; ++k) {
         prefetch_ahead(runs, run_count, k);
         for (std::uint32_t i = 0; i < runs[k].count; ++i) {
             const Floats low = hn::Set(kF, std::bit_cast<float>(runs[k].records[i].near_bits));
             const Floats high = hn::Set(kF, std::bit_cast<float>(runs[k].records[i].far_bits));
-            const Mask here = reaches(low, high, begin, end);
-            const Floats inside = hn::Max(hn::Min(high, far_depth) - hn::Max(low, near_depth), hn::Zero(kF));
-            counts = counts + hn::IfThenElseZero(hn::RebindMask(kW, here), hn::Set(kW, 1));
-            depths = depths + hn::IfThenElseZero(here, inside);
+            for (std::uint32_t v = 0; v < kVectors; ++v) {
+                const Mask here = reaches(low, high, bounds[v].begin, bounds[v].end);
+                const Floats inside =
+                    hn::Max(hn::Min(high, depth_bounds[v].end) - hn::Max(low, depth_bounds[v].begin), hn::Zero(kF));
+                counts[v] = counts[v] + hn::IfThenElseZero(hn::RebindMask(kW, here), hn::Set(kW, 1));
+                depths[v] = depths[v] + hn::IfThenElseZero(here, inside);
+            }
         }
     }
-    hn::StoreU(counts, kW, sums.counts + s);
-    hn::StoreU(depths, kF, sums.depths + s);
+    for (std::size_t v = 0; v < kVectors; ++v) {
+        hn::StoreU(counts[v], kW, sums.counts + s + v * hn::Lanes(kF));
+        hn::StoreU(depths[v], kF, sums.depths + s + v * hn::Lanes(kF));
+    }
 }
 
 // Twice the middle, within the range of a difference.
@@ -104,11 +127,32 @@ HWY_INLINE void find_keys(std::uint32_t count, std::uint32_t bins, const Range& 
     }
 }
 
+HWY_INLINE void find_some(const SliceLanes& slices, std::uint32_t s, const DepthArrays& sorted, std::uint32_t count,
+                          SliceRanges& ranges) {
+    SliceBounds bounds[kVectors];
+    load_bounds(slices.begin + s, slices.end + s, bounds);
+    Words first[kVectors], behind[kVectors];
+    std::fill_n(first, kVectors, hn::Set(kW, count));
+    std::fill_n(behind, kVectors, hn::Zero(kW));
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Floats low = hn::Set(kF, sorted.low[i]);
+        const Floats high = hn::Set(kF, sorted.high[i]);
+        for (std::uint32_t v = 0; v < kVectors; ++v) {
+            const auto here = hn::RebindMask(kW, reaches(low, high, bounds[v].begin, bounds[v].end));
+            first[v] = hn::IfThenElse(here, hn::Min(first[v], hn::Set(kW, i)), first[v]);
+            behind[v] = hn::IfThenElse(here, hn::Set(kW, i + 1), behind[v]);
+        }
+    }
+    for (std::size_t v = 0; v < kVectors; ++v) {
+        hn::StoreU(first[v], kW, ranges.first + s + v * hn::Lanes(kF));
+        hn::StoreU(behind[v], kW, ranges.end + s + v * hn::Lanes(kF));
+    }
+}
+
 } // namespace
 
 void sum_slices(const SliceLanes& slices, const RecordRun* runs, std::uint32_t run_count, SliceSums& sums) {
-    for (std::uint32_t s = 0; s < slices.count; s += static_cast<std::uint32_t>(hn::Lanes(kF)))
-        sum_some(slices, s, runs, run_count, sums);
+    for (std::uint32_t s = 0; s < slices.count; s += kTogether) sum_some(slices, s, runs, run_count, sums);
 }
 
 // A counting sort; lights of one bin stay in the order of the chunks.
@@ -137,20 +181,7 @@ void sort_records(std::uint32_t run_count, std::uint32_t count, const CellScratc
 }
 
 void find_ranges(const SliceLanes& slices, const DepthArrays& sorted, std::uint32_t count, SliceRanges& ranges) {
-    for (std::uint32_t s = 0; s < slices.count; s += static_cast<std::uint32_t>(hn::Lanes(kF))) {
-        const Floats begin = hn::LoadU(kF, slices.begin + s);
-        const Floats end = hn::LoadU(kF, slices.end + s);
-        Words first = hn::Set(kW, count);
-        Words behind = hn::Zero(kW);
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const auto here =
-                hn::RebindMask(kW, reaches(hn::Set(kF, sorted.low[i]), hn::Set(kF, sorted.high[i]), begin, end));
-            first = hn::IfThenElse(here, hn::Min(first, hn::Set(kW, i)), first);
-            behind = hn::IfThenElse(here, hn::Set(kW, i + 1), behind);
-        }
-        hn::StoreU(first, kW, ranges.first + s);
-        hn::StoreU(behind, kW, ranges.end + s);
-    }
+    for (std::uint32_t s = 0; s < slices.count; s += kTogether) find_some(slices, s, sorted, count, ranges);
 }
 
 std::uint32_t pick_slice(const SliceLanes& slices, std::uint32_t slice, const DepthArrays& sorted, std::uint32_t begin,
@@ -162,11 +193,11 @@ std::uint32_t pick_slice(const SliceLanes& slices, std::uint32_t slice, const De
         const Floats low = hn::LoadU(kF, sorted.low + i);
         const Floats high = hn::LoadU(kF, sorted.high + i);
         const Mask here = hn::And(hn::FirstN(kF, end - i), reaches(low, high, slice_begin, slice_end));
-        const auto words = hn::RebindMask(kW, here);
-        hn::StoreU(hn::Compress(hn::LoadU(kW, sorted.light + i), words), kW, cell.light + count);
-        hn::StoreU(hn::Compress(low, here), kF, cell.low + count);
-        hn::StoreU(hn::Compress(high, here), kF, cell.high + count);
-        count += static_cast<std::uint32_t>(hn::CountTrue(kF, here));
+        const Compaction compact(here);
+        hn::StoreU(compact(hn::LoadU(kW, sorted.light + i)), kW, cell.light + count);
+        hn::StoreU(compact(low), kF, cell.low + count);
+        hn::StoreU(compact(high), kF, cell.high + count);
+        count += compact.count();
     }
     return count;
 }

@@ -11,6 +11,8 @@
 // foreach_target comes first.
 #include <hwy/highway.h>
 
+#include "src/build/compaction-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace manylights::detail::HWY_NAMESPACE {
 namespace {
@@ -177,23 +179,17 @@ HWY_NOINLINE void find_special(const ViewCull& cull, const LightSpan& lights, st
     kept = hn::RebindMask(kF, hn::Load(kW, copies.kept) != hn::Zero(kW));
 }
 
-// The kept lanes, side by side; what is stored behind them counts for nothing. (Storing only the kept ones takes
-// longer.)
-template <class D, class V, class M>
-HWY_INLINE void store_kept(D d, V v, M kept, hn::TFromD<D>* to) {
-    hn::StoreU(hn::Compress(v, kept), d, to);
-}
-
+// What is stored behind the kept lanes counts for nothing. (Storing only the kept ones takes longer.)
 HWY_INLINE void append(LightBlock& block, const InView& v, Words index, Words pixels_x, Words pixels_y, Mask kept) {
-    const auto kept_words = hn::RebindMask(kW, kept);
-    store_kept(kF, v.x, kept, block.x + block.count);
-    store_kept(kF, v.y, kept, block.y + block.count);
-    store_kept(kF, v.depth, kept, block.depth + block.count);
-    store_kept(kF, v.radius, kept, block.radius + block.count);
-    store_kept(kW, index, kept_words, block.index + block.count);
-    store_kept(kW, pixels_x, kept_words, block.pixels_x + block.count);
-    store_kept(kW, pixels_y, kept_words, block.pixels_y + block.count);
-    block.count += static_cast<std::uint32_t>(hn::CountTrue(kF, kept));
+    const Compaction compact(kept);
+    hn::StoreU(compact(v.x), kF, block.x + block.count);
+    hn::StoreU(compact(v.y), kF, block.y + block.count);
+    hn::StoreU(compact(v.depth), kF, block.depth + block.count);
+    hn::StoreU(compact(v.radius), kF, block.radius + block.count);
+    hn::StoreU(compact(index), kW, block.index + block.count);
+    hn::StoreU(compact(pixels_x), kW, block.pixels_x + block.count);
+    hn::StoreU(compact(pixels_y), kW, block.pixels_y + block.count);
+    block.count += compact.count();
 }
 
 HWY_INLINE void add_ignored(const LightSpan& lights, std::size_t i, Mask usable, Ignored& ignored) {

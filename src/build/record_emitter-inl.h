@@ -6,6 +6,7 @@
 #define MANYLIGHTS_RECORD_EMITTER_INL_H
 #endif
 
+#include "src/build/compaction-inl.h"
 #include "src/build/tile_records.h"
 
 #include <hwy/cache_control.h>
@@ -71,12 +72,12 @@ class Emitter {
 
     // What is stored behind the kept ones counts for nothing.
     HWY_INLINE void add(Words tile, Words light, Words near_bits, Words far_bits, Mask kept) {
-        const auto kept_words = hn::RebindMask(kW, kept);
-        hn::StoreU(hn::Compress(tile, kept_words), kW, buffer_.tile + count_);
-        hn::StoreU(hn::Compress(light, kept_words), kW, buffer_.light + count_);
-        hn::StoreU(hn::Compress(near_bits, kept_words), kW, buffer_.near_bits + count_);
-        hn::StoreU(hn::Compress(far_bits, kept_words), kW, buffer_.far_bits + count_);
-        count_ += static_cast<std::uint32_t>(hn::CountTrue(kF, kept));
+        const Compaction compact(kept);
+        hn::StoreU(compact(tile), kW, buffer_.tile + count_);
+        hn::StoreU(compact(light), kW, buffer_.light + count_);
+        hn::StoreU(compact(near_bits), kW, buffer_.near_bits + count_);
+        hn::StoreU(compact(far_bits), kW, buffer_.far_bits + count_);
+        count_ += compact.count();
         if (count_ >= kBufferedRecords) finish();
     }
     // The first ones of the lanes.
