@@ -36,7 +36,7 @@ void add_bench(CLI::App& app, BenchOptions& bench) {
     app.add_option("--repeat", bench.repeat, "rounds of everything that is timed [the suite's]");
     add_list(app, "--scenes", options.scenes, "NAME,NAME,... of the suite's scenes [all]");
     add_list(app, "--lights", bench.lights, "N,N,... [the suite's]");
-    add_list(app, "--techniques", bench.techniques, "NAME,NAME,... or all [all but brute_force]");
+    add_list(app, "--techniques", bench.techniques, "NAME,NAME,... or all [the suite's]");
     add_list(app, "--views", options.views, "cameras, path [both]");
     app.add_option("--size", bench.size, "WIDTHxHEIGHT in pixels [the suite's]");
     app.add_option("--detail", bench.detail, "of built-in scenes: low or full [full]");

@@ -9,7 +9,7 @@ namespace manylights::lab::suites {
 
 struct CaseList {
     std::vector<Case> cases;
-    std::vector<std::string> skipped; ///< a line for each scene that is not there
+    std::vector<std::string> skipped; ///< a line for each scene that is not there, and for each technique's cap
 };
 
 CaseList quality_cases(const SuiteOptions& options);

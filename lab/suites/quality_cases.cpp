@@ -2,7 +2,10 @@
 #include "lab/suites/runner.h"
 #include "lab/suites/suite_scenes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -87,16 +90,56 @@ void add_rivals(std::vector<TechniqueChoice>& choices, bool is_overlap) {
         place = choices.insert(place + 1, {"clustered", options});
 }
 
-// Brute force tests every light for every point: its figures are the number of lights, and it would take days.
+// Where a run names no technique: the limit, and what builds on the host. The others build on the device, which a
+// software driver takes seconds for.
+constexpr const char* kUsual[] = {"exact",         "clustered",         "tiled_light_trees", "hybrid_light_trees",
+                                  "depth_windows", "depth_windows_wave"};
+
+bool is_wanted(const SuiteOptions& options, const std::string& technique) {
+    if (options.techniques.empty())
+        return std::find(std::begin(kUsual), std::end(kUsual), technique) != std::end(kUsual);
+    return std::find(options.techniques.begin(), options.techniques.end(), technique) != options.techniques.end();
+}
+
 std::vector<TechniqueChoice> techniques_of(const SuiteOptions& options) {
     std::vector<TechniqueChoice> choices;
-    for (const TechniqueInfo& info : technique_infos()) {
-        const bool named =
-            std::find(options.techniques.begin(), options.techniques.end(), info.name) != options.techniques.end();
-        if (named || (options.techniques.empty() && info.name != "brute_force"))
-            choices.push_back({info.name, options_of(info.name)});
-    }
+    for (const TechniqueInfo& info : technique_infos())
+        if (is_wanted(options, info.name)) choices.push_back({info.name, options_of(info.name)});
     return choices;
+}
+
+/// Where more lights would tell nothing, or not in a night.
+struct Cap {
+    const char* technique;
+    std::uint32_t most_lights;
+    const char* reason;
+};
+constexpr Cap kCaps[] = {
+    {"brute_force", 4096, "it tests each light at each point"},
+};
+
+const Cap* cap_of(const TechniqueChoice& choice) {
+    const auto* cap = std::find_if(std::begin(kCaps), std::end(kCaps),
+                                   [&](const Cap& candidate) { return choice.name == candidate.technique; });
+    return cap != std::end(kCaps) ? cap : nullptr;
+}
+
+std::vector<TechniqueChoice> within_caps(const std::vector<TechniqueChoice>& choices, std::uint32_t lights) {
+    std::vector<TechniqueChoice> within;
+    for (const TechniqueChoice& choice : choices)
+        if (const Cap* cap = cap_of(choice); cap == nullptr || lights <= cap->most_lights) within.push_back(choice);
+    return within;
+}
+
+/// A line for each technique that some of the cases are without.
+std::vector<std::string> describe_caps(const std::vector<TechniqueChoice>& choices, const Plan& plan) {
+    std::vector<std::string> lines;
+    const std::uint32_t most = plan.lights.empty() ? 0 : *std::max_element(plan.lights.begin(), plan.lights.end());
+    for (const TechniqueChoice& choice : choices)
+        if (const Cap* cap = cap_of(choice); cap != nullptr && most > cap->most_lights)
+            lines.push_back(
+                fmt::format("{}: only up to {} lights, for {}", choice.name, cap->most_lights, cap->reason));
+    return lines;
 }
 
 bool contains(const std::vector<std::uint32_t>& numbers, std::uint32_t number) {
@@ -109,6 +152,7 @@ void add_cases(std::vector<Case>& cases, const Case& scene_case, const Plan& pla
         c.lights.count = lights;
         const bool is_main = contains(plan.main_lights, lights);
         if (is_main) c.rounds = plan.rounds;
+        c.techniques = within_caps(scene_case.techniques, lights);
         if (contains(plan.rival_lights, lights)) add_rivals(c.techniques, plan.is_overlap);
         for (const std::uint32_t camera : plan.cameras) {
             c.view = {false, camera};
@@ -131,6 +175,7 @@ CaseList quality_cases(const SuiteOptions& options) {
     check_names("--views", options.views, {"cameras", "path"});
     const Plan plan = plan_of(options);
     CaseList list;
+    list.skipped = describe_caps(techniques_of(options), plan);
     for (const SuiteScene& scene : select_scenes(options, list.skipped)) {
         Case c;
         c.scene = scene_choice(scene, options);

@@ -108,6 +108,20 @@ TEST(QualityCases, lists_have_rivals_of_finer_grids_where_lights_are_many) {
     for (const Case& c : quality_cases(options).cases) EXPECT_EQ(c.techniques.size(), 1u);
 }
 
+TEST(QualityCases, a_technique_is_left_out_above_its_cap_with_the_reason) {
+    SuiteOptions options;
+    options.scenes = {"bars"};
+    options.lights = {4096, 4097};
+    options.techniques = {"exact", "brute_force"};
+    const CaseList list = quality_cases(options);
+    ASSERT_FALSE(list.cases.empty());
+    for (const Case& c : list.cases) EXPECT_EQ(c.techniques.size(), c.lights.count == 4096 ? 2u : 1u);
+    ASSERT_EQ(list.skipped.size(), 1u);
+    EXPECT_EQ(list.skipped[0], "brute_force: only up to 4096 lights, for it tests each light at each point");
+    options.lights = {4096};
+    EXPECT_TRUE(quality_cases(options).skipped.empty());
+}
+
 TEST(QualityCases, a_scene_that_is_not_there_is_skipped_with_the_reason) {
     SuiteOptions options;
     options.scenes = {"sponza"};
