@@ -57,8 +57,8 @@ class Tiled : public PassTechnique {
         if (options_.has_depths()) milliseconds += depths_.find(frame.points, grid);
         // Without depths the shader reads none, and any buffer will do.
         const gpu::Buffer& depths = options_.has_depths() ? depths_.depths() : visible_.lights();
-        milliseconds += lists_.build({view, grid, visible_, {{depths}}});
-        structure_.fit(frame.width, frame.height, grid);
+        milliseconds += lists_.build({{view, grid, visible_}, {{depths}}});
+        structure_.fit(frame.width, frame.height, options_.tile_size);
         stats_.build_ms.push_back(milliseconds);
         stats_.visible_lights = visible_.count();
         stats_.references = lists_.reference_count();
