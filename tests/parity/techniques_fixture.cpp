@@ -133,6 +133,16 @@ std::vector<Variant> all_variants() {
     variants.push_back({"clustered_samples_bitmap", "clustered_samples", {{"unique", "bitmap"}, {"fan_out", "16"}}});
     variants.push_back(
         {"clustered_samples_hierarchy", "clustered_samples", {{"query", "hierarchy"}, {"fan_out", "8"}}});
+    variants.push_back({"hybrid_lighting", "hybrid_lighting", {}});
+    variants.push_back({"hybrid_lighting_linked",
+                        "hybrid_lighting",
+                        {{"lists", "linked"}, {"tiles", "60x34"}, {"division", "view_uniform"}}});
+    variants.push_back({"hybrid_lighting_occupied",
+                        "hybrid_lighting",
+                        {{"cells", "occupied"}, {"tiles", "7x11"}, {"division", "screen_uniform"}, {"slices", "256"}}});
+    variants.push_back({"hybrid_lighting_linked_occupied",
+                        "hybrid_lighting",
+                        {{"lists", "linked"}, {"cells", "occupied"}, {"slices", "40"}}});
     return variants;
 }
 

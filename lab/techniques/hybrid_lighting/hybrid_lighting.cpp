@@ -89,7 +89,7 @@ class HybridLighting : public PassTechnique {
         stats_.build_ms.push_back(milliseconds);
         stats_.visible_lights = visible_.count();
         stats_.references = links_ ? links_->link_count() : lists_->reference_count();
-        stats_.structure_bytes = bytes_of(structure());
+        stats_.structure_bytes = links_ ? grid_.buffer().bytes() + links_->bytes() : bytes_of(structure());
     }
 
     std::vector<const gpu::Buffer*> structure() const override {
