@@ -125,7 +125,8 @@ TEST_F(HybridLightingTest, only_lists_of_all_froxels_serve_points_that_come_late
     }
 }
 
-// The published form asks the ray through a tile's centre, and a rasteriser by itself asks whether the centre is covered.
+// The published form asks the ray through a tile's centre, and a rasteriser by itself asks whether the centre is
+// covered.
 TEST_F(HybridLightingTest, tile_centres_lose_lights) {
     const View view = made_view(device(), 97, 60, 1500);
     for (const char* lists : {"contiguous", "linked"}) {

@@ -122,6 +122,7 @@ std::vector<Variant> all_variants() {
     variants.push_back({"tiled", "tiled", {}});
     variants.push_back({"tiled_max_planes", "tiled", {{"depth", "max"}, {"test", "planes"}, {"tile_size", "13"}}});
     variants.push_back({"tiled_none_rectangle", "tiled", {{"depth", "none"}, {"test", "rectangle"}}});
+    variants.push_back({"tiled_counted", "tiled", {{"tiles", "32x32"}}});
     variants.push_back({"culling_2_5d", "culling_2_5d", {}});
     variants.push_back({"culling_2_5d_b", "culling_2_5d", {{"variant", "b"}, {"cells", "64"}, {"tile_size", "13"}}});
     variants.push_back({"culling_2_5d_b_16", "culling_2_5d", {{"variant", "b"}, {"cells", "16"}}});

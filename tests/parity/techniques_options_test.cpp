@@ -74,6 +74,7 @@ TEST_F(TechniquesTest, values_out_of_range_name_the_range) {
     for (const char* name : {"tiled", "culling_2_5d"})
         for (const char* value : {"7", "65", "16px", ""})
             expect_words(refusal(device(), name, {{"tile_size", value}}), {name, "tile_size", "8", "64"});
+    expect_words(refusal(device(), "tiled", {{"tiles", "32"}}), {"tiled", "tiles=32", "1 to 8192"});
     expect_words(refusal(device(), "tiled", {{"depth", "min"}}), {"tiled", "depth=min", "minmax, max, none"});
     expect_words(refusal(device(), "tiled", {{"test", "cone"}}), {"test=cone", "narrowed, rectangle, planes"});
     expect_words(refusal(device(), "culling_2_5d", {{"variant", "d"}}), {"culling_2_5d", "variant=d", "a, b, c"});
@@ -110,6 +111,7 @@ TEST_F(TechniquesTest, options_that_contradict_each_other_are_refused) {
                  {"clustered", "cell_test=tight", "producer=paper"});
     expect_words(refusal(device(), "clustered", {{"loop", "wave"}, {"producer", "library"}}),
                  {"clustered", "loop=wave", "producer=paper"});
+    expect_words(refusal(device(), "tiled", {{"tile_size", "16"}, {"tiles", "8x8"}}), {"tiled", "tile_size", "tiles"});
     for (const auto& [key, value] :
          OptionValues{{"tile_size", "16"}, {"normals", "off"}, {"unique", "sort"}, {"bounds", "explicit"}})
         expect_words(refusal(device(), "clustered_samples", {{"query", "hierarchy"}, {key, value}}),
