@@ -194,6 +194,10 @@ TEST_F(HybridLightingTest, says_what_it_holds) {
     EXPECT_EQ(contiguous.structure_bytes, grid_bytes + 8 * froxels + 4 * contiguous.references);
     const TechniqueStats linked = prepared({{"tiles", "5x3"}, {"slices", "7"}, {"lists", "linked"}}, view)->stats();
     EXPECT_EQ(linked.structure_bytes, grid_bytes + 4 * froxels + 8 * linked.references);
+    // The first pool has room for more.
+    const TechniqueStats one = prepared({{"tiles", "1x1"}, {"slices", "1"}, {"lists", "linked"}}, view)->stats();
+    EXPECT_EQ(one.references, one.visible_lights);
+    EXPECT_EQ(one.structure_bytes, 28 + 4 + 8 * one.references);
 }
 
 } // namespace manylights::lab
