@@ -94,6 +94,7 @@ TEST_F(TechniquesTest, values_out_of_range_name_the_range) {
         expect_words(refusal(device(), "hybrid_lighting", {{"slices", value}}), {"slices=", value, "1 to 4096"});
     expect_words(refusal(device(), "hybrid_lighting", {{"division", "log"}}),
                  {"division=log", "exponential, view_uniform, screen_uniform"});
+    expect_words(refusal(device(), "hybrid_lighting", {{"billboards", "quads"}}), {"quads", "compute, raster"});
     expect_words(refusal(device(), "hybrid_lighting", {{"lists", "L"}}), {"lists=L", "contiguous, linked"});
     expect_words(refusal(device(), "hybrid_lighting", {{"cells", "some"}}), {"cells=some", "all, occupied"});
     expect_words(refusal(device(), "hybrid_lighting", {{"coverage", "ray"}}),

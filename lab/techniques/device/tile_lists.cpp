@@ -23,7 +23,8 @@ constexpr std::uint64_t kWord = sizeof(std::uint32_t);
 
 TileLists::TileLists(gpu::Device& device, const TilePassShader& shader)
     : device_(device), name_(shader.name), prefix_sum_(device),
-      pass_(device, {shader.name + " (lists)", shader.code, kListBuffers + shader.buffer_count, shader.constants}),
+      pass_(device, {shader.name + " (lists)", shader.code, kListBuffers + shader.buffer_count, shader.constants,
+                     shader.billboards}),
       cells_pipeline_(device, {"cells of lists", kCellsCode, 3, sizeof(std::uint32_t), {}}),
       counts_(device, "lengths of lists"), places_(device, "places of lists"),
       total_(device, "references, their number"), cells_(device, "lists"), references_(device, "references") {}
