@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <string_view>
 
 namespace manylights::lab {
 
@@ -16,6 +17,14 @@ std::string key_list(const TechniqueInfo& info) {
     std::string keys;
     for (const OptionInfo& option : info.options) keys += (keys.empty() ? "" : ", ") + option.key;
     return keys.empty() ? "it has none" : "its options are " + keys;
+}
+
+std::optional<std::uint32_t> whole_number_of(std::string_view text, std::uint32_t lowest, std::uint32_t highest) {
+    std::uint32_t number = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc() || stop != end || number < lowest || number > highest) return std::nullopt;
+    return number;
 }
 
 } // namespace
@@ -45,12 +54,22 @@ std::uint32_t OptionReader::whole_number(const std::string& key, std::uint32_t f
                                          std::uint32_t highest) const {
     const std::string* text = find(key);
     if (!text) return fallback;
-    std::uint32_t number = 0;
-    const char* end = text->data() + text->size();
-    const auto [stop, error] = std::from_chars(text->data(), end, number);
-    if (error != std::errc() || stop != end || number < lowest || number > highest)
-        refuse(key, *text, fmt::format("a whole number from {} to {}", lowest, highest));
-    return number;
+    const std::optional<std::uint32_t> number = whole_number_of(*text, lowest, highest);
+    if (!number) refuse(key, *text, fmt::format("a whole number from {} to {}", lowest, highest));
+    return *number;
+}
+
+std::array<std::uint32_t, 2> OptionReader::counts(const std::string& key, const std::array<std::uint32_t, 2>& fallback,
+                                                  std::uint32_t highest) const {
+    const std::string* text = find(key);
+    if (!text) return fallback;
+    const std::size_t cross = std::min(text->find('x'), text->size());
+    const std::string_view all = *text;
+    const auto across = whole_number_of(all.substr(0, cross), 1, highest);
+    const auto down = whole_number_of(all.substr(std::min(cross + 1, all.size())), 1, highest);
+    if (!across || !down)
+        refuse(key, *text, fmt::format("two whole numbers from 1 to {} with an x between them", highest));
+    return {*across, *down};
 }
 
 std::optional<float> OptionReader::positive_number(const std::string& key) const {

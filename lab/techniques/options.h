@@ -4,6 +4,7 @@
 
 #include "lab/techniques/technique.h"
 
+#include <array>
 #include <optional>
 
 namespace manylights::lab {
@@ -18,6 +19,9 @@ class OptionReader {
                                std::uint32_t highest) const;
     /// A finite number above zero; empty where the key is not given.
     std::optional<float> positive_number(const std::string& key) const;
+    /// Two whole numbers with an x between them, each from 1 to highest; the fallback where the key is not given.
+    std::array<std::uint32_t, 2> counts(const std::string& key, const std::array<std::uint32_t, 2>& fallback,
+                                        std::uint32_t highest) const;
     /// The index of the value in the choices; 0 where the key is not given.
     std::size_t choice(const std::string& key, std::span<const char* const> choices) const;
 

@@ -9,7 +9,7 @@ import unittest
 from harness import SMALL, CommandTest
 
 CELLS = ("clustered", "tiled_light_trees", "hybrid_light_trees", "depth_windows", "depth_windows_wave")
-DEVICE_BUILT = ("tiled", "culling_2_5d", "clustered_samples", "z_bins")
+DEVICE_BUILT = ("tiled", "culling_2_5d", "clustered_samples", "z_bins", "hybrid_lighting")
 
 
 def png_size(path):
@@ -102,6 +102,15 @@ class Verify(CommandTest):
             for other in CELLS:
                 if other != name:
                     self.assertRegex(done.stdout, rf"(?m)^{other} .*  exact$")
+
+    def test_documented_losses_are_found_and_named(self):
+        for coverage in ("centre_ray", "plain"):
+            for billboards in ("compute", "raster"):
+                done = self.assert_done("verify", *SMALL, "--techniques", "hybrid_lighting", "--set", "tiles=8x4", "--set",
+                                        "coverage=" + coverage, "--set", "billboards=" + billboards, code=1)
+                self.assertRegex(done.stderr, r"\Amanylights: hybrid_lighting: \d+ of 2304 points differ from brute_force; "
+                                 r"first at pixel \(\d+, \d+\): \d+ of \d+ affecting lights, missing lights? \d+.*\n\Z")
+                self.assertRegex(done.stdout, r"(?m)^hybrid_lighting .*  WRONG$")
 
     def test_the_truth_is_brute_force_where_that_is_quick(self):
         done = self.assert_done("verify", *SMALL, "--techniques", "clustered")

@@ -45,6 +45,8 @@ class TiledTest : public TechniquesTest {
                                          {"b", "culling_2_5d", {{"variant", "b"}}},
                                          {"b of 64", "culling_2_5d", {{"variant", "b"}, {"cells", "64"}}},
                                          {"c", "culling_2_5d", {{"variant", "c"}, {"cells", "64"}}},
+                                         {"counted", "tiled", {{"tiles", "30x17"}}},
+                                         {"counted, no depths", "tiled", {{"tiles", "7x130"}, {"depth", "none"}}},
                                          // A light of the whole image has more tiles than one invocation goes over.
                                          {"small tiles", "tiled", {{"tile_size", "8"}}},
                                          {"small tiles of a", "culling_2_5d", {{"tile_size", "8"}}}};
@@ -91,8 +93,11 @@ TEST_F(TiledTest, depths_of_tiles_are_those_of_their_points) {
     View view = made_view(device(), 97, 60, 0);
     set_points(view, [&](std::size_t pixel) { return pixel % 97 < 26 ? 0.0f : view.positions[pixel].depth; });
     TileDepths depths(device());
-    for (const std::uint32_t tile_size : {8u, 13u, 64u}) {
-        const TileGrid grid = tile_grid(view.width, view.height, tile_size);
+    const auto square = [](std::uint32_t size) { return tile_grid(97, 60, size); };
+    const auto counted = [](std::uint32_t x, std::uint32_t y) { return tile_grid_of_counts(97, 60, x, y); };
+    // Of the last one some tiles are empty.
+    for (const TileGrid& grid :
+         {square(8), square(13), square(64), counted(1, 1), counted(7, 11), counted(97, 60), counted(130, 17)}) {
         depths.find(view.points, grid);
         const std::vector<glm::vec2> found = depths.depths().download<glm::vec2>();
         const float infinity = std::numeric_limits<float>::infinity();
@@ -100,11 +105,12 @@ TEST_F(TiledTest, depths_of_tiles_are_those_of_their_points) {
         for (std::size_t pixel = 0; pixel < view.positions.size(); ++pixel) {
             const float depth = view.positions[pixel].depth;
             if (depth == 0.0f) continue;
-            glm::vec2& tile = expected[pixel / 97 / tile_size * grid.tiles_x + pixel % 97 / tile_size];
+            const std::size_t x = pixel % 97 * grid.tiles_x / grid.span_x, y = pixel / 97 * grid.tiles_y / grid.span_y;
+            glm::vec2& tile = expected[y * grid.tiles_x + x];
             tile = {std::min(tile.x, depth), std::max(tile.y, depth)};
         }
-        EXPECT_EQ(found, expected) << tile_size;
-        EXPECT_EQ(std::ranges::count(expected, glm::vec2(infinity, 0.0f)) > 0, tile_size < 64);
+        EXPECT_EQ(found, expected) << grid.tiles_x << " x " << grid.tiles_y;
+        EXPECT_EQ(std::ranges::count(expected, glm::vec2(infinity, 0.0f)) > 0, grid.tiles_x > 2);
     }
 }
 
@@ -122,6 +128,14 @@ TEST_F(TiledTest, what_bounds_lights_more_leaves_fewer) {
     EXPECT_LT(references_of(view, "culling_2_5d", {}), references_of(view, "culling_2_5d", {{"interval", "sphere"}}));
     EXPECT_LT(references_of(view, "culling_2_5d", {{"cells", "64"}}),
               references_of(view, "culling_2_5d", {{"cells", "8"}}));
+}
+
+TEST_F(TiledTest, tiles_of_a_number_are_those_of_a_size_where_these_divide_the_image) {
+    const View view = made_view(device(), 96, 64, 900);
+    const OptionValues counted{{"tiles", "6x4"}};
+    EXPECT_EQ(references_of(view, "tiled", counted), references_of(view, "tiled", {}));
+    EXPECT_EQ(tested_by(view, "tiled", counted), tested_by(view, "tiled", {}));
+    EXPECT_NE(references_of(view, "tiled", {{"tiles", "5x4"}}), references_of(view, "tiled", {}));
 }
 
 TEST_F(TiledTest, cells_lose_lights_between_layers_of_points) {

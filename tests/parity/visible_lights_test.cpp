@@ -68,7 +68,7 @@ TEST_F(VisibleLightsTest, leave_out_what_is_behind_beside_or_affects_nothing_and
 TEST(DepthSlices, ascend_from_zero_to_infinity) {
     for (const SliceEdges& edges :
          {exponential_slices(5, 500, 16), exponential_slices(5, 500, 1), self_similar_slices(0.1f, 100, 1.05f),
-          uniform_slices(0.1f, 300, 128), screen_uniform_slices(0.1f, 300, 256)}) {
+          geometric_slices(0.1f, 300, 4096), uniform_slices(0.1f, 300, 128), screen_uniform_slices(0.1f, 300, 256)}) {
         EXPECT_EQ(edges.front(), 0.0f);
         EXPECT_EQ(edges.back(), std::numeric_limits<float>::infinity());
         EXPECT_TRUE(std::ranges::is_sorted(edges, std::less_equal<>())) << "no slice is empty";
@@ -76,6 +76,7 @@ TEST(DepthSlices, ascend_from_zero_to_infinity) {
     EXPECT_EQ(slice_count(exponential_slices(5, 500, 16)), 16u);
     EXPECT_NEAR(exponential_slices(5, 500, 16)[15], 368, 1);
     EXPECT_EQ(slice_count(self_similar_slices(1, 8, 2)), 3u) << "0 to 2, 2 to 4, 4 on";
+    EXPECT_NEAR(geometric_slices(2, 32, 4)[1], 4, 1e-5);
     EXPECT_NEAR(uniform_slices(1, 101, 4)[2], 51, 1e-3);
     EXPECT_NEAR(screen_uniform_slices(1, 100, 2)[1], 1.0 / (1.0 - 0.99 / 2), 1e-5);
 }

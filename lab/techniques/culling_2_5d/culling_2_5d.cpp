@@ -86,9 +86,7 @@ class Culling25D : public PassTechnique {
         double milliseconds = visible_.find(view, spheres(), light_count());
         milliseconds += depths_.find(frame.points, grid);
         milliseconds += find_cells(frame.points, grid);
-        milliseconds += lists_.build({view,
-                                      grid,
-                                      visible_,
+        milliseconds += lists_.build({{view, grid, visible_},
                                       {{depths_.depths()}, {scales_.buffer()}, {occupied_.buffer()}},
                                       options_.lists_per_tile(),
                                       options_.words_per_reference()});
@@ -120,8 +118,8 @@ class Culling25D : public PassTechnique {
     }
 
     void fit_structure(const Frame& frame, const TileGrid& grid) {
-        list_structure_.fit(frame.width, frame.height, grid);
-        const CellGrid cells{grid.tile_size, grid.tiles_x, options_.cells,
+        list_structure_.fit(frame.width, frame.height, options_.tile_size);
+        const CellGrid cells{options_.tile_size, grid.tiles_x, options_.cells,
                              options_.lists == Lists::with_masks ? 1u : 0u};
         cell_grid_.fit(sizeof cells);
         cell_grid_.buffer().upload(std::span<const CellGrid>(&cells, 1));

@@ -14,11 +14,6 @@ layout(std430, set = 0, binding = 3) readonly buffer Depths { vec2 d[]; } depths
 layout(std430, set = 0, binding = 4) readonly buffer Scales { vec2 d[]; } scales;
 layout(std430, set = 0, binding = 5) readonly buffer Occupied { uvec2 d[]; } occupied;
 
-void add_light(uint list, uint light) {
-    uint place = take_place(list);
-    if (is_fill != 0u) references.d[place] = light;
-}
-
 void add_with_mask(uint list, uint light, uvec2 mask) {
     uint words = cell_count > 32u ? 3u : 2u;
     uint place = words * take_place(list);

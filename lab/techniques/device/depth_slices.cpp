@@ -2,6 +2,7 @@
 
 #include "reference/paper/slices.h"
 
+#include <cmath>
 #include <limits>
 
 namespace manylights::lab {
@@ -36,6 +37,11 @@ SliceEdges self_similar_slices(float near_edge, float far_edge, float ratio) {
         edges.push_back(static_cast<float>(edge));
     edges.push_back(kOpen);
     return edges;
+}
+
+SliceEdges geometric_slices(float near_edge, float far_edge, std::uint32_t count) {
+    const double ratio = double(far_edge) / near_edge;
+    return table_of(count, [&](std::uint32_t i) { return near_edge * std::pow(ratio, double(i) / count); });
 }
 
 SliceEdges uniform_slices(float near_edge, float far_edge, std::uint32_t count) {

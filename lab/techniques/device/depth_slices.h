@@ -16,6 +16,8 @@ SliceEdges exponential_slices(float near_edge, float far_edge, std::uint32_t cou
 /// Equal ratios from near_edge on, as many as reach far_edge; ratio > 1 (Olsson, Billeter, Assarsson, Clustered
 /// Deferred and Forward Shading, 2012, where it makes cells as deep as they are wide).
 SliceEdges self_similar_slices(float near_edge, float far_edge, float ratio);
+/// Equal ratios from near_edge to far_edge, the last one open.
+SliceEdges geometric_slices(float near_edge, float far_edge, std::uint32_t count);
 /// Equal depths from near_edge to far_edge, the last one open.
 SliceEdges uniform_slices(float near_edge, float far_edge, std::uint32_t count);
 /// Equal steps of the depth buffer's z / w of a projection from near_edge to far_edge, the last one open.

@@ -12,11 +12,12 @@ namespace {
 
 constexpr std::array<float, 2> kSliceEdges{0.0f, std::numeric_limits<float>::infinity()};
 
-MlView view_of(std::uint32_t width, std::uint32_t height, const TileGrid& grid) {
+MlView view_of(std::uint32_t width, std::uint32_t height, std::uint32_t tile_size) {
+    const TileGrid grid = tile_grid(width, height, tile_size);
     MlView view{};
     view.width = width;
     view.height = height;
-    view.tile_px = grid.tile_size;
+    view.tile_px = tile_size;
     view.tiles_x = grid.tiles_x;
     view.tiles_y = grid.tiles_y;
     view.slice_count = 1;
@@ -31,8 +32,8 @@ ListStructure::ListStructure(gpu::Device& device)
     : views_(device, "view of lists"), nodes_(device, "nodes of lists"),
       slice_edges_(device, "slice edges of lists", std::span<const float>(kSliceEdges)) {}
 
-void ListStructure::fit(std::uint32_t width, std::uint32_t height, const TileGrid& grid) {
-    const MlView view = view_of(width, height, grid);
+void ListStructure::fit(std::uint32_t width, std::uint32_t height, std::uint32_t tile_size) {
+    const MlView view = view_of(width, height, tile_size);
     views_.fit(sizeof view);
     views_.buffer().upload(std::span<const MlView>(&view, 1));
     nodes_.fit(0);

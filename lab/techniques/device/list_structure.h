@@ -10,7 +10,7 @@ class ListStructure {
   public:
     explicit ListStructure(gpu::Device& device);
 
-    void fit(std::uint32_t width, std::uint32_t height, const TileGrid& grid);
+    void fit(std::uint32_t width, std::uint32_t height, std::uint32_t tile_size);
     /// In the order of structure_accessors.glsl.
     std::vector<const gpu::Buffer*> buffers(const TileLists& lists) const;
 

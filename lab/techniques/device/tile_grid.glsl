@@ -1,19 +1,21 @@
-// Square tiles of an image: tile_grid.h says what the members are.
+// Tiles of an image: tile_grid.h says what the members are.
 #ifndef MANYLIGHTS_LAB_TILE_GRID_GLSL
 #define MANYLIGHTS_LAB_TILE_GRID_GLSL
 
 struct TileGrid {
-    uint tile_size;
-    uint tiles_x, tiles_y;
+    uvec2 tiles;
+    uvec2 span;
 };
 
-uint tile_index(TileGrid grid, uvec2 tile) { return tile.y * grid.tiles_x + tile.x; }
+uint tile_index(TileGrid grid, uvec2 tile) { return tile.y * grid.tiles.x + tile.x; }
 
-uvec2 first_pixel_of(TileGrid grid, uvec2 tile) { return tile * grid.tile_size; }
+uvec2 tile_of(TileGrid grid, uvec2 pixel) { return pixel * grid.tiles / grid.span; }
 
-// Within the image.
+uvec2 first_pixel_of(TileGrid grid, uvec2 tile) { return (tile * grid.span + grid.tiles - 1u) / grid.tiles; }
+
+// Within the image. Of an empty tile it is before the first.
 uvec2 last_pixel_of(TileGrid grid, uvec2 tile, uvec2 image) {
-    return min((tile + 1u) * grid.tile_size, image) - 1u;
+    return min(first_pixel_of(grid, tile + 1u), image) - 1u;
 }
 
 #endif

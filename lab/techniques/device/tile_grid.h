@@ -1,5 +1,6 @@
 #pragma once
-// Square tiles of an image, for techniques that build on the device. Those at the right and the lower edge may be cut.
+// Tiles of an image, for techniques that build on the device: square ones of a given size, of which those at the right
+// and the lower edge may be cut, or a given number of them, which then may differ by a pixel.
 
 #include "lab/gpu/commands.h"
 
@@ -7,16 +8,26 @@
 
 namespace manylights::lab {
 
-/// What the shaders know of it; tiles are numbered row by row.
+/// What the shaders know of it; tiles are numbered row by row. Of n tiles along an axis, tile i begins at pixel
+/// ceil(i * span / n), and a pixel p is in tile floor(p * n / span). Of more tiles than pixels some are empty.
 struct TileGrid {
-    std::uint32_t tile_size; ///< pixels
     std::uint32_t tiles_x, tiles_y;
+    std::uint32_t span_x, span_y; ///< pixels that the tiles would cover, were none of them cut
 
     std::uint32_t tile_count() const { return tiles_x * tiles_y; }
 };
 
+/// How finely an image of up to 2^16 pixels along an axis may be divided, so that products stay within 32 bits.
+constexpr std::uint32_t kMostTilesOfAxis = 8192;
+
 inline TileGrid tile_grid(std::uint32_t width, std::uint32_t height, std::uint32_t tile_size) {
-    return {tile_size, gpu::group_count(width, tile_size), gpu::group_count(height, tile_size)};
+    const std::uint32_t tiles_x = gpu::group_count(width, tile_size), tiles_y = gpu::group_count(height, tile_size);
+    return {tiles_x, tiles_y, tiles_x * tile_size, tiles_y * tile_size};
+}
+
+inline TileGrid tile_grid_of_counts(std::uint32_t width, std::uint32_t height, std::uint32_t tiles_x,
+                                    std::uint32_t tiles_y) {
+    return {tiles_x, tiles_y, width, height};
 }
 
 } // namespace manylights::lab

@@ -15,29 +15,22 @@ constexpr std::uint32_t kCellsCode[] =
 #include "tile_lists_cells.comp.inc"
     ;
 
-constexpr std::uint32_t kGroupSize = 64;
-constexpr std::uint32_t kListBuffers = 3; // of tile_lists.glsl; the technique's own follow
+constexpr std::uint32_t kGroupSize = 64;  // of tile_lists_cells.comp
+constexpr std::uint32_t kListBuffers = 2; // of tile_lists.glsl; the technique's own follow
 constexpr std::uint64_t kWord = sizeof(std::uint32_t);
-
-struct Push {
-    DeviceView view;
-    TileGrid grid;
-    std::uint32_t light_count;
-    std::uint32_t is_fill;
-};
 
 } // namespace
 
-TileLists::TileLists(gpu::Device& device, const TileListsShader& shader)
+TileLists::TileLists(gpu::Device& device, const TilePassShader& shader)
     : device_(device), name_(shader.name), prefix_sum_(device),
-      lights_pipeline_(device, {shader.name + " (lists)", shader.code, kListBuffers + shader.input_count, sizeof(Push),
-                                shader.constants}),
+      pass_(device, {shader.name + " (lists)", shader.code, kListBuffers + shader.buffer_count, shader.constants,
+                     shader.billboards}),
       cells_pipeline_(device, {"cells of lists", kCellsCode, 3, sizeof(std::uint32_t), {}}),
       counts_(device, "lengths of lists"), places_(device, "places of lists"),
       total_(device, "references, their number"), cells_(device, "lists"), references_(device, "references") {}
 
 double TileLists::build(const TileListsInput& input) {
-    const std::uint32_t lists = input.grid.tile_count() * input.lists_per_tile;
+    const std::uint32_t lists = input.pass.grid.tile_count() * input.lists_per_tile;
     const double milliseconds = count(input, lists);
     check_total(input.words_per_reference);
     return milliseconds + fill(input, lists);
@@ -52,7 +45,7 @@ double TileLists::count(const TileListsInput& input, std::uint32_t lists) {
     const std::uint32_t start = commands.timestamp();
     commands.fill(counts_.buffer(), 0);
     commands.barrier();
-    dispatch(commands, input, counts_.buffer(), counts_.buffer(), false);
+    record_pass(commands, input, counts_.buffer(), counts_.buffer(), false);
     prefix_sum_.record(commands, counts_.buffer(), places_.buffer(), lists, total_.buffer());
     const std::uint32_t end = commands.timestamp();
     commands.submit_and_wait("lengths of lists");
@@ -78,19 +71,17 @@ double TileLists::fill(const TileListsInput& input, std::uint32_t lists) {
     commands.dispatch(cells_pipeline_, {{counts_.buffer()}, {places_.buffer()}, {cells_.buffer()}}, lists,
                       {gpu::group_count(lists, kGroupSize * kGroupSize), 1, 1});
     commands.barrier();
-    dispatch(commands, input, places_.buffer(), references_.buffer(), true);
+    record_pass(commands, input, places_.buffer(), references_.buffer(), true);
     const std::uint32_t end = commands.timestamp();
     commands.submit_and_wait("writing lists");
     return commands.milliseconds(start, end);
 }
 
-void TileLists::dispatch(gpu::Commands& commands, const TileListsInput& input, const gpu::Buffer& counters,
-                         const gpu::Buffer& references, bool is_fill) const {
-    if (input.lights.count() == 0) return;
-    std::vector<gpu::Binding> bindings{{input.lights.lights()}, {counters}, {references}};
+void TileLists::record_pass(gpu::Commands& commands, const TileListsInput& input, const gpu::Buffer& counters,
+                            const gpu::Buffer& references, bool is_fill) const {
+    std::vector<gpu::Binding> bindings{{counters}, {references}};
     for (const gpu::Binding& buffer : input.buffers) bindings.push_back(buffer);
-    const Push push{input.view, input.grid, input.lights.count(), is_fill ? 1u : 0u};
-    commands.dispatch(lights_pipeline_, bindings, push, {gpu::group_count(input.lights.count(), kGroupSize), 1, 1});
+    pass_.record(commands, input.pass, bindings, is_fill ? 1 : 0);
 }
 
 } // namespace manylights::lab

@@ -5,23 +5,14 @@
 // tile.
 
 #include "lab/gpu/prefix_sum.h"
-#include "lab/techniques/device/tile_grid.h"
-#include "lab/techniques/device/visible_lights.h"
+#include "lab/techniques/device/fitted_buffer.h"
+#include "lab/techniques/device/tile_pass.h"
 
 namespace manylights::lab {
 
-struct TileListsShader {
-    std::string name; ///< the technique's, in messages
-    std::span<const std::uint32_t> code;
-    std::uint32_t input_count; ///< buffers of its own, from binding 3 on
-    std::vector<std::uint32_t> constants;
-};
-
 /// What the lists of an image are made of.
 struct TileListsInput {
-    const DeviceView& view;
-    const TileGrid& grid;
-    const VisibleLights& lights;
+    TilePassInput pass;
     std::vector<gpu::Binding> buffers; ///< the technique's own
     std::uint32_t lists_per_tile = 1;
     std::uint32_t words_per_reference = 1;
@@ -29,7 +20,8 @@ struct TileListsInput {
 
 class TileLists {
   public:
-    TileLists(gpu::Device& device, const TileListsShader& shader);
+    /// shader: its text includes tile_lists.glsl; its own buffers are from binding 3 on.
+    TileLists(gpu::Device& device, const TilePassShader& shader);
 
     /// Builds them and waits; the device's time in milliseconds. Throws InputError where their words do not fit 32
     /// bits.
@@ -44,13 +36,14 @@ class TileLists {
     double count(const TileListsInput& input, std::uint32_t lists);
     void check_total(std::uint32_t words_per_reference) const;
     double fill(const TileListsInput& input, std::uint32_t lists);
-    void dispatch(gpu::Commands& commands, const TileListsInput& input, const gpu::Buffer& counters,
-                  const gpu::Buffer& references, bool is_fill) const;
+    void record_pass(gpu::Commands& commands, const TileListsInput& input, const gpu::Buffer& counters,
+                     const gpu::Buffer& references, bool is_fill) const;
 
     gpu::Device& device_;
     std::string name_;
     gpu::PrefixSum prefix_sum_;
-    gpu::ComputePipeline lights_pipeline_, cells_pipeline_;
+    TilePass pass_;
+    gpu::ComputePipeline cells_pipeline_;
     FittedBuffer counts_, places_, total_, cells_, references_;
     std::uint64_t reference_count_ = 0;
 };

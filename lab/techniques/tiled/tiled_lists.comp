@@ -49,6 +49,5 @@ void visit(VisibleLight light, uvec2 tile) {
     if (test_choice == kPlanes && !meets_sides(light, tile)) return;
     span = meet(span, test_choice == kNarrowed ? depths_in_tile(light, tile) : sphere_depths(light.sphere));
     if (span.low > span.high) return;
-    uint place = take_place(list);
-    if (is_fill != 0u) references.d[place] = light.index;
+    add_light(list, light.index);
 }
