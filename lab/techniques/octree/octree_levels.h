@@ -1,0 +1,28 @@
+#pragma once
+// The levels of an octree over froxels: octree.glsl has what shaders ask of them.
+
+#include "lab/techniques/device/froxel_grid.h"
+
+namespace manylights::lab {
+
+class OctreeLevels {
+  public:
+    static constexpr std::uint32_t kMost = 14; ///< 8,192 tiles along an axis are the most
+
+    explicit OctreeLevels(gpu::Device& device) : buffer_(device, "levels of an octree") {}
+
+    /// As many as the longest axis needs. Throws InputError where all of them together have more nodes than can be
+    /// counted.
+    void lay_out(const FroxelGrid& grid, bool is_sparse);
+
+    std::uint32_t count() const { return count_; }
+    /// Of all levels together, were every froxel there.
+    std::uint32_t dense_nodes() const { return dense_nodes_; }
+    const gpu::Buffer& buffer() const { return buffer_.buffer(); }
+
+  private:
+    FittedBuffer buffer_;
+    std::uint32_t count_ = 0, dense_nodes_ = 0;
+};
+
+} // namespace manylights::lab
