@@ -62,7 +62,8 @@ class CellsBySort : public OccupiedCells {
     }
 
   private:
-    template <typename Record> double run(const char* what, Record record) {
+    template <typename Record>
+    double run(const char* what, Record record) {
         gpu::Commands commands(device_);
         const std::uint32_t start = commands.timestamp();
         record(commands);

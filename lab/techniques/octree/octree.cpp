@@ -28,6 +28,7 @@ constexpr std::uint32_t kLogCode[] =
 constexpr std::uint32_t kGroupSize = 64; // of the shader
 
 // The first of each is what it is by default.
+constexpr const char* kNodes[] = {"sparse", "dense"};
 constexpr const char* kUnique[] = {"bitmask", "sort", "compact_sort"};
 constexpr const char* kCorners[] = {"table", "computed"};
 constexpr const char* kInner[] = {"on", "off"};
@@ -35,14 +36,14 @@ constexpr const char* kInner[] = {"on", "off"};
 struct Options {
     FroxelOptions froxels;
     std::size_t unique;
-    bool has_corner_table, has_inner;
+    bool is_sparse, has_corner_table, has_inner;
 };
 
 Options read_options(const OptionValues& values) {
     const TechniqueInfo info = octree_info();
     const OptionReader reader(info, values);
-    return {read_froxel_options(reader), reader.choice("unique", kUnique), reader.choice("corners", kCorners) == 0,
-            reader.choice("inner", kInner) == 0};
+    return {read_froxel_options(reader), reader.choice("unique", kUnique), reader.choice("nodes", kNodes) == 0,
+            reader.choice("corners", kCorners) == 0, reader.choice("inner", kInner) == 0};
 }
 
 std::unique_ptr<OccupiedCells> make_cells(gpu::Device& device, std::size_t choice) {
@@ -59,13 +60,12 @@ class Octree : public PassTechnique {
     Octree(gpu::Device& device, const Options& options)
         : PassTechnique(device, octree_info(), {"octree", kRecordCode, kShadeCode, kLogCode, 5}), options_(options),
           visible_(device), grid_(device), levels_(device), cells_(make_cells(device, options.unique)),
-          nodes_(make_dense_nodes(device)),
-          assign_pipeline_(device,
-                           {"octree (lists)",
-                            kAssignCode,
-                            7,
-                            sizeof(AssignPush),
-                            {options.has_inner ? 1u : 0u, options.has_corner_table ? 1u : 0u}}),
+          nodes_(options.is_sparse ? make_sparse_nodes(device) : make_dense_nodes(device)),
+          assign_pipeline_(device, {"octree (lists)",
+                                    kAssignCode,
+                                    7,
+                                    sizeof(AssignPush),
+                                    {options.has_inner ? 1u : 0u, options.has_corner_table ? 1u : 0u}}),
           lists_(device, "octree") {
         if (options.has_inner && options.has_corner_table) corners_.emplace(device);
     }
@@ -74,7 +74,7 @@ class Octree : public PassTechnique {
     void build(const Frame& frame) override {
         const DeviceView view = device_view(frame);
         grid_.lay_out(frame, options_.froxels);
-        levels_.lay_out(grid_, false);
+        levels_.lay_out(grid_, options_.is_sparse);
         double milliseconds = visible_.find(view, spheres(), light_count());
         milliseconds += cells_->find(frame, grid_);
         milliseconds += nodes_->build(grid_, levels_, *cells_);
@@ -94,21 +94,21 @@ class Octree : public PassTechnique {
     double assign(const DeviceView& view) {
         // Without a table the shader reads none, and any buffer will do.
         const gpu::Buffer& corners = corners_ ? corners_->corners() : grid_.buffer();
-        return lists_.build(nodes_->count(), 1,
-                            [&](gpu::Commands& commands, const gpu::Buffer& counters, const gpu::Buffer& references,
-                                bool is_fill) {
-                                if (visible_.count() == 0) return;
-                                const AssignPush push{view, visible_.count(), is_fill ? 1u : 0u};
-                                commands.dispatch(assign_pipeline_,
-                                                  {{visible_.lights()},
-                                                   {counters},
-                                                   {references},
-                                                   {grid_.buffer()},
-                                                   {levels_.buffer()},
-                                                   {nodes_->nodes()},
-                                                   {corners}},
-                                                  push, {gpu::group_count(visible_.count(), kGroupSize), 1, 1});
-                            });
+        return lists_.build(
+            nodes_->count(), 1,
+            [&](gpu::Commands& commands, const gpu::Buffer& counters, const gpu::Buffer& references, bool is_fill) {
+                if (visible_.count() == 0) return;
+                const AssignPush push{view, visible_.count(), is_fill ? 1u : 0u};
+                commands.dispatch(assign_pipeline_,
+                                  {{visible_.lights()},
+                                   {counters},
+                                   {references},
+                                   {grid_.buffer()},
+                                   {levels_.buffer()},
+                                   {nodes_->nodes()},
+                                   {corners}},
+                                  push, {gpu::group_count(visible_.count(), kGroupSize), 1, 1});
+            });
     }
 
     Options options_;
@@ -127,13 +127,17 @@ class Octree : public PassTechnique {
 TechniqueInfo octree_info() {
     TechniqueInfo info;
     info.name = "octree";
-    info.summary = "an octree over the froxels that have samples; what reaches all froxels of a node is stored there once";
+    info.summary =
+        "an octree over the froxels that have samples; what reaches all froxels of a node is stored there once";
     info.options = froxel_option_infos();
-    info.options.push_back({"unique", "how the froxels with samples are found: a bit for each, or by sorting those of all "
-                                     "pixels, or of pixels that differ from the one before",
+    info.options.push_back({"unique",
+                            "how the froxels with samples are found: a bit for each, or by sorting those of all "
+                            "pixels, or of pixels that differ from the one before",
                             "bitmask (default), sort or compact_sort"});
-    info.options.push_back({"corners", "of froxels: from a table, or computed where they are used",
-                            "table (default) or computed"});
+    info.options.push_back({"nodes", "eight children of each node that has samples, or arrays of all nodes of a level",
+                            "sparse (default) or dense"});
+    info.options.push_back(
+        {"corners", "of froxels: from a table, or computed where they are used", "table (default) or computed"});
     info.options.push_back({"inner", "whether nodes above froxels hold lights", "on (default) or off"});
     info.needs_depth = true;
     info.serves_translucent = info.serves_air = false;

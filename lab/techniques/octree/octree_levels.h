@@ -16,13 +16,16 @@ class OctreeLevels {
     void lay_out(const FroxelGrid& grid, bool is_sparse);
 
     std::uint32_t count() const { return count_; }
-    /// Of all levels together, were every froxel there.
-    std::uint32_t dense_nodes() const { return dense_nodes_; }
+    /// Were every froxel there.
+    std::uint32_t nodes_of(std::uint32_t level) const { return first_nodes_[level + 1] - first_nodes_[level]; }
+    /// Of all levels together.
+    std::uint32_t all_nodes() const { return first_nodes_[count_]; }
     const gpu::Buffer& buffer() const { return buffer_.buffer(); }
 
   private:
     FittedBuffer buffer_;
-    std::uint32_t count_ = 0, dense_nodes_ = 0;
+    std::uint32_t count_ = 0;
+    std::uint32_t first_nodes_[kMost + 1]{}; ///< of each level, and behind the last one
 };
 
 } // namespace manylights::lab

@@ -19,6 +19,8 @@ class OctreeNodes {
     virtual const gpu::Buffer& nodes() const = 0;
 };
 
+/// Eight children of each node that has froxels with samples, from a pool.
+std::unique_ptr<OctreeNodes> make_sparse_nodes(gpu::Device& device);
 /// Every node of the whole grid has a number.
 std::unique_ptr<OctreeNodes> make_dense_nodes(gpu::Device& device);
 
