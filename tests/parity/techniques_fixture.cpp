@@ -133,6 +133,21 @@ std::vector<Variant> all_variants() {
     variants.push_back({"clustered_samples_bitmap", "clustered_samples", {{"unique", "bitmap"}, {"fan_out", "16"}}});
     variants.push_back(
         {"clustered_samples_hierarchy", "clustered_samples", {{"query", "hierarchy"}, {"fan_out", "8"}}});
+    variants.push_back({"octree", "octree", {}});
+    variants.push_back({"octree_dense",
+                        "octree",
+                        {{"nodes", "dense"},
+                         {"unique", "sort"},
+                         {"corners", "computed"},
+                         {"tiles", "60x34"},
+                         {"division", "view_uniform"}}});
+    variants.push_back({"octree_leaves",
+                        "octree",
+                        {{"inner", "off"},
+                         {"unique", "compact_sort"},
+                         {"tiles", "32x32"},
+                         {"division", "screen_uniform"},
+                         {"slices", "256"}}});
     return variants;
 }
 

@@ -66,6 +66,10 @@ TEST_F(TechniquesTest, values_out_of_range_name_the_range) {
     expect_words(refusal(device(), "z_bins", {{"summary", "1"}}), {"summary", "1", "off, on"});
     expect_words(refusal(device(), "z_bins", {{"loop", "group"}}), {"loop", "group", "lane, wave"});
     expect_words(refusal(device(), "z_bins", {{"sort_key", "far"}}), {"sort_key", "far", "centre, near"});
+    expect_words(refusal(device(), "octree", {{"unique", "hash"}}), {"unique", "hash", "bitmask, sort, compact_sort"});
+    expect_words(refusal(device(), "octree", {{"nodes", "full"}}), {"nodes", "full", "sparse, dense"});
+    expect_words(refusal(device(), "octree", {{"corners", "none"}}), {"corners", "none", "table, computed"});
+    expect_words(refusal(device(), "octree", {{"inner", "yes"}}), {"inner", "yes", "on, off"});
     expect_words(refusal(device(), "clustered", {{"producer", "magic"}}), {"producer", "magic", "library", "paper"});
     for (const char* value : {"1", "yes", ""})
         expect_words(refusal(device(), "depth_windows", {{"depth", value}}), {"depth_windows", "depth=", "off, on"});

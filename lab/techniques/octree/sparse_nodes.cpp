@@ -23,8 +23,9 @@ class SparseNodes : public OctreeNodes {
   public:
     explicit SparseNodes(gpu::Device& device)
         : device_(device), pipeline_(device, {"octree, sparse nodes", kInsertCode, 6, kWord, {}}),
-          pool_(device, "room for nodes"), nodes_(device, "nodes"), counts_(device, "counts of nodes"),
-          later_{{device, "froxels put aside"}, {device, "froxels put aside again"}} {}
+          pool_(device, "room for nodes"), nodes_(device, "nodes"),
+          counts_(device, "counts of nodes"), later_{{device, "froxels put aside"},
+                                                     {device, "froxels put aside again"}} {}
 
     // A froxel is put aside where another one makes children, at most once per level, and then these are there.
     double build(const FroxelGrid& grid, const OctreeLevels& levels, const OccupiedCells& cells) override {
@@ -63,9 +64,9 @@ class SparseNodes : public OctreeNodes {
                   const gpu::Buffer& later) {
         gpu::Commands commands(device_);
         const std::uint32_t start = commands.timestamp();
-        commands.dispatch(
-            pipeline_, {{cells}, {grid.buffer()}, {levels.buffer()}, {pool_.buffer()}, {counts_.buffer()}, {later}},
-            count, spread_groups(gpu::group_count(count, kGroupSize)));
+        commands.dispatch(pipeline_,
+                          {{cells}, {grid.buffer()}, {levels.buffer()}, {pool_.buffer()}, {counts_.buffer()}, {later}},
+                          count, spread_groups(gpu::group_count(count, kGroupSize)));
         const std::uint32_t end = commands.timestamp();
         commands.submit_and_wait("inserting froxels into the octree");
         return commands.milliseconds(start, end);
