@@ -1,5 +1,5 @@
-// An octree over the froxels that have samples: the same froxels whichever way they are found, the same lists from either
-// form of nodes, and inner nodes that save references and change nothing of what a point tests.
+// An octree over the froxels that have samples: the same froxels whichever way they are found, the same lists from
+// either form of nodes, and inner nodes that save references and change nothing of what a point tests.
 
 #include "lab/scene/error.h"
 #include "lab/techniques/octree/octree_nodes.h"

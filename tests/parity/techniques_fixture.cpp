@@ -122,6 +122,7 @@ std::vector<Variant> all_variants() {
     variants.push_back({"tiled", "tiled", {}});
     variants.push_back({"tiled_max_planes", "tiled", {{"depth", "max"}, {"test", "planes"}, {"tile_size", "13"}}});
     variants.push_back({"tiled_none_rectangle", "tiled", {{"depth", "none"}, {"test", "rectangle"}}});
+    variants.push_back({"tiled_counted", "tiled", {{"tiles", "32x32"}}});
     variants.push_back({"culling_2_5d", "culling_2_5d", {}});
     variants.push_back({"culling_2_5d_b", "culling_2_5d", {{"variant", "b"}, {"cells", "64"}, {"tile_size", "13"}}});
     variants.push_back({"culling_2_5d_b_16", "culling_2_5d", {{"variant", "b"}, {"cells", "16"}}});
@@ -133,6 +134,16 @@ std::vector<Variant> all_variants() {
     variants.push_back({"clustered_samples_bitmap", "clustered_samples", {{"unique", "bitmap"}, {"fan_out", "16"}}});
     variants.push_back(
         {"clustered_samples_hierarchy", "clustered_samples", {{"query", "hierarchy"}, {"fan_out", "8"}}});
+    variants.push_back({"hybrid_lighting", "hybrid_lighting", {}});
+    variants.push_back({"hybrid_lighting_linked",
+                        "hybrid_lighting",
+                        {{"lists", "linked"}, {"tiles", "60x34"}, {"division", "view_uniform"}}});
+    variants.push_back({"hybrid_lighting_occupied",
+                        "hybrid_lighting",
+                        {{"cells", "occupied"}, {"tiles", "7x11"}, {"division", "screen_uniform"}, {"slices", "256"}}});
+    variants.push_back({"hybrid_lighting_linked_occupied",
+                        "hybrid_lighting",
+                        {{"lists", "linked"}, {"cells", "occupied"}, {"slices", "40"}}});
     variants.push_back({"octree", "octree", {}});
     variants.push_back({"octree_dense",
                         "octree",

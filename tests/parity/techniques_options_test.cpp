@@ -30,7 +30,7 @@ void expect_words(const std::string& message, const std::vector<std::string>& wo
 TEST_F(TechniquesTest, unknown_technique_names_the_choices) {
     const std::string message = refusal(device(), "magic", {});
     expect_words(message, {"magic", "brute_force", "exact", "clustered", "tiled_light_trees", "hybrid_light_trees",
-                           "depth_windows", "depth_windows_wave", "tiled", "culling_2_5d"});
+                           "depth_windows", "depth_windows_wave", "tiled", "culling_2_5d", "hybrid_lighting"});
 }
 
 TEST_F(TechniquesTest, unknown_option_names_the_keys) {
@@ -78,6 +78,7 @@ TEST_F(TechniquesTest, values_out_of_range_name_the_range) {
     for (const char* name : {"tiled", "culling_2_5d"})
         for (const char* value : {"7", "65", "16px", ""})
             expect_words(refusal(device(), name, {{"tile_size", value}}), {name, "tile_size", "8", "64"});
+    expect_words(refusal(device(), "tiled", {{"tiles", "32"}}), {"tiled", "tiles=32", "1 to 8192"});
     expect_words(refusal(device(), "tiled", {{"depth", "min"}}), {"tiled", "depth=min", "minmax, max, none"});
     expect_words(refusal(device(), "tiled", {{"test", "cone"}}), {"test=cone", "narrowed, rectangle, planes"});
     expect_words(refusal(device(), "culling_2_5d", {{"variant", "d"}}), {"culling_2_5d", "variant=d", "a, b, c"});
@@ -90,6 +91,17 @@ TEST_F(TechniquesTest, values_out_of_range_name_the_range) {
     expect_words(refusal(device(), "clustered_samples", {{"fan_out", "64"}}), {"fan_out", "64", "32, 16, 8"});
     expect_words(refusal(device(), "clustered_samples", {{"normals", "1"}}), {"normals", "off, on"});
     expect_words(refusal(device(), "clustered_samples", {{"query", "list"}}), {"query", "clusters, hierarchy"});
+    for (const char* value : {"", "30", "x17", "30x", "0x17", "30x8193", "30x17x2", "30,17"})
+        expect_words(refusal(device(), "hybrid_lighting", {{"tiles", value}}),
+                     {"hybrid_lighting", "tiles=", "1 to 8192"});
+    for (const char* value : {"0", "4097"})
+        expect_words(refusal(device(), "hybrid_lighting", {{"slices", value}}), {"slices=", value, "1 to 4096"});
+    expect_words(refusal(device(), "hybrid_lighting", {{"division", "log"}}),
+                 {"division=log", "exponential, view_uniform, screen_uniform"});
+    expect_words(refusal(device(), "hybrid_lighting", {{"lists", "L"}}), {"lists=L", "contiguous, linked"});
+    expect_words(refusal(device(), "hybrid_lighting", {{"cells", "some"}}), {"cells=some", "all, occupied"});
+    expect_words(refusal(device(), "hybrid_lighting", {{"coverage", "ray"}}),
+                 {"coverage=ray", "tile, centre_ray, plain"});
     const OptionValues heuristic{{"producer", "paper"}, {"heuristic", "f"}};
     expect_words(refusal(device(), "hybrid_light_trees", heuristic), {"heuristic", "f", "a, b, c, d, e, lists"});
 }
@@ -103,6 +115,7 @@ TEST_F(TechniquesTest, options_that_contradict_each_other_are_refused) {
                  {"clustered", "cell_test=tight", "producer=paper"});
     expect_words(refusal(device(), "clustered", {{"loop", "wave"}, {"producer", "library"}}),
                  {"clustered", "loop=wave", "producer=paper"});
+    expect_words(refusal(device(), "tiled", {{"tile_size", "16"}, {"tiles", "8x8"}}), {"tiled", "tile_size", "tiles"});
     for (const auto& [key, value] :
          OptionValues{{"tile_size", "16"}, {"normals", "off"}, {"unique", "sort"}, {"bounds", "explicit"}})
         expect_words(refusal(device(), "clustered_samples", {{"query", "hierarchy"}, {key, value}}),
@@ -127,7 +140,7 @@ TEST_F(TechniquesTest, tight_cells_and_the_loop_of_waves_choose_the_producer) {
 
 TEST(Techniques, infos_name_every_technique_and_their_options) {
     const std::vector<TechniqueInfo> infos = technique_infos();
-    ASSERT_EQ(infos.size(), 11u);
+    ASSERT_EQ(infos.size(), 12u);
     EXPECT_EQ(infos[0].name, "brute_force");
     EXPECT_EQ(infos[1].name, "exact");
     for (const TechniqueInfo& info : infos) EXPECT_FALSE(info.summary.empty());

@@ -45,6 +45,8 @@ class TiledTest : public TechniquesTest {
                                          {"b", "culling_2_5d", {{"variant", "b"}}},
                                          {"b of 64", "culling_2_5d", {{"variant", "b"}, {"cells", "64"}}},
                                          {"c", "culling_2_5d", {{"variant", "c"}, {"cells", "64"}}},
+                                         {"counted", "tiled", {{"tiles", "30x17"}}},
+                                         {"counted, no depths", "tiled", {{"tiles", "7x130"}, {"depth", "none"}}},
                                          // A light of the whole image has more tiles than one invocation goes over.
                                          {"small tiles", "tiled", {{"tile_size", "8"}}},
                                          {"small tiles of a", "culling_2_5d", {{"tile_size", "8"}}}};
@@ -126,6 +128,14 @@ TEST_F(TiledTest, what_bounds_lights_more_leaves_fewer) {
     EXPECT_LT(references_of(view, "culling_2_5d", {}), references_of(view, "culling_2_5d", {{"interval", "sphere"}}));
     EXPECT_LT(references_of(view, "culling_2_5d", {{"cells", "64"}}),
               references_of(view, "culling_2_5d", {{"cells", "8"}}));
+}
+
+TEST_F(TiledTest, tiles_of_a_number_are_those_of_a_size_where_these_divide_the_image) {
+    const View view = made_view(device(), 96, 64, 900);
+    const OptionValues counted{{"tiles", "6x4"}};
+    EXPECT_EQ(references_of(view, "tiled", counted), references_of(view, "tiled", {}));
+    EXPECT_EQ(tested_by(view, "tiled", counted), tested_by(view, "tiled", {}));
+    EXPECT_NE(references_of(view, "tiled", {{"tiles", "5x4"}}), references_of(view, "tiled", {}));
 }
 
 TEST_F(TiledTest, cells_lose_lights_between_layers_of_points) {

@@ -36,8 +36,10 @@ SliceEdges edges_of(const Frame& frame, const FroxelOptions& options) {
     case DepthDivision::exponential:
         if (options.slices != 0) return geometric_slices(near_edge, far_edge, count);
         return self_similar_slices(near_edge, far_edge, cubic_ratio(frame, options.tiles[1]));
-    case DepthDivision::view_uniform: return uniform_slices(near_edge, far_edge, count);
-    case DepthDivision::screen_uniform: break;
+    case DepthDivision::view_uniform:
+        return uniform_slices(near_edge, far_edge, count);
+    case DepthDivision::screen_uniform:
+        break;
     }
     return screen_uniform_slices(near_edge, far_edge, count);
 }
@@ -51,14 +53,15 @@ void check_count(const TileGrid& tiles, std::uint32_t slices) {
 } // namespace
 
 std::vector<OptionInfo> froxel_option_infos() {
-    return {{"tiles", "how many tiles the image has across and down",
-             fmt::format("two numbers from 1 to {} with an x between them, default 30x17", kMostTilesOfAxis)},
-            {"division", "how depths are divided into slices",
-             "exponential (default): equal ratios; view_uniform: equal depths; screen_uniform: equal steps of the depth "
-             "buffer of a projection"},
-            {"slices", "how many of them",
-             fmt::format("1 to {}; by default {}, or if exponential so that they are as deep as a tile is high",
-                         kMostSlices, kUniformSlices)}};
+    return {
+        {"tiles", "how many tiles the image has across and down",
+         fmt::format("two numbers from 1 to {} with an x between them, default 30x17", kMostTilesOfAxis)},
+        {"division", "how depths are divided into slices",
+         "exponential (default): equal ratios; view_uniform: equal depths; screen_uniform: equal steps of the depth "
+         "buffer of a projection"},
+        {"slices", "how many of them",
+         fmt::format("1 to {}; by default {}, or if exponential so that they are as deep as a tile is high",
+                     kMostSlices, kUniformSlices)}};
 }
 
 FroxelOptions read_froxel_options(const OptionReader& reader) {

@@ -29,9 +29,10 @@ double TileLinks::build(const TilePassInput& input, const std::vector<gpu::Bindi
     const double milliseconds = link(input, buffers);
     if (link_count_ <= capacity_) return milliseconds;
     reserve(link_count_);
-    ++regrow_count_;
     return milliseconds + link(input, buffers);
 }
+
+std::uint64_t TileLinks::bytes() const { return heads_.buffer().bytes() + link_count_ * kLinkBytes; }
 
 void TileLinks::reserve(std::uint64_t links) {
     capacity_ = links;

@@ -21,8 +21,8 @@ class TileLinks {
     /// LightLink each (light_link.glsl), as many as the pool has room for.
     const gpu::Buffer& links() const { return links_.buffer(); }
     std::uint64_t link_count() const { return link_count_; }
-    /// How often a pool was too small, over all builds.
-    std::uint32_t regrow_count() const { return regrow_count_; }
+    /// Of heads and links that are in use.
+    std::uint64_t bytes() const;
 
   private:
     double link(const TilePassInput& input, const std::vector<gpu::Binding>& buffers);
@@ -33,7 +33,6 @@ class TileLinks {
     TilePass pass_;
     FittedBuffer heads_, links_, taken_;
     std::uint64_t capacity_ = 0, link_count_ = 0;
-    std::uint32_t regrow_count_ = 0;
 };
 
 } // namespace manylights::lab

@@ -1,5 +1,6 @@
 #include "lab/techniques/hybrid_lighting/hybrid_lighting.h"
 
+#include "lab/techniques/device/froxel_lists.h"
 #include "lab/techniques/device/list_structure.h"
 #include "lab/techniques/device/occupied_froxels.h"
 #include "lab/techniques/device/tile_links.h"
@@ -16,24 +17,6 @@ constexpr std::uint32_t kListsCode[] =
     ;
 constexpr std::uint32_t kLinksCode[] =
 #include "hybrid_links.comp.inc"
-    ;
-constexpr std::uint32_t kRecordCode[] =
-#include "hybrid_lighting_record.comp.inc"
-    ;
-constexpr std::uint32_t kShadeCode[] =
-#include "hybrid_lighting_shade.comp.inc"
-    ;
-constexpr std::uint32_t kLogCode[] =
-#include "hybrid_lighting_log.comp.inc"
-    ;
-constexpr std::uint32_t kLinkedRecordCode[] =
-#include "hybrid_lighting_linked_record.comp.inc"
-    ;
-constexpr std::uint32_t kLinkedShadeCode[] =
-#include "hybrid_lighting_linked_shade.comp.inc"
-    ;
-constexpr std::uint32_t kLinkedLogCode[] =
-#include "hybrid_lighting_linked_log.comp.inc"
     ;
 
 // The first of each is what it is by default.
@@ -64,8 +47,7 @@ TechniqueInfo info_with(const Options& options) {
 }
 
 PassShaders shaders(const Options& options) {
-    if (options.is_linked) return {"hybrid_lighting", kLinkedRecordCode, kLinkedShadeCode, kLinkedLogCode, 3};
-    return {"hybrid_lighting", kRecordCode, kShadeCode, kLogCode, 3};
+    return options.is_linked ? froxel_link_shaders("hybrid_lighting") : froxel_list_shaders("hybrid_lighting");
 }
 
 class HybridLighting : public PassTechnique {
@@ -89,7 +71,7 @@ class HybridLighting : public PassTechnique {
         stats_.build_ms.push_back(milliseconds);
         stats_.visible_lights = visible_.count();
         stats_.references = links_ ? links_->link_count() : lists_->reference_count();
-        stats_.structure_bytes = bytes_of(structure());
+        stats_.structure_bytes = links_ ? grid_.buffer().bytes() + links_->bytes() : bytes_of(structure());
     }
 
     std::vector<const gpu::Buffer*> structure() const override {

@@ -1,4 +1,4 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define MANYLIGHTS_LOG
-#include "lab/techniques/hybrid_lighting/hybrid_lighting.glsl"
+#include "lab/techniques/device/froxel_lists.glsl"

@@ -2,4 +2,4 @@
 #extension GL_GOOGLE_include_directive : require
 #define MANYLIGHTS_RECORD
 #define MANYLIGHTS_LINKED
-#include "lab/techniques/hybrid_lighting/hybrid_lighting.glsl"
+#include "lab/techniques/device/froxel_lists.glsl"
