@@ -173,6 +173,18 @@ TEST_F(OctreeTest, lists_are_the_same_from_either_form_of_nodes_and_either_kind_
     }
 }
 
+TEST_F(OctreeTest, lists_are_the_same_whether_lights_go_down_once_or_in_each_tile) {
+    const View view = large_lights(device());
+    for (OptionValues options : {OptionValues{{"tiles", "30x17"}}, OptionValues{{"tiles", "7x5"}, {"inner", "off"}},
+                                 OptionValues{{"tiles", "130x3"}}, OptionValues{{"tiles", "1x1"}}}) {
+        const Result once = run(view, options);
+        options.push_back({"assign", "tiles"});
+        const Result in_tiles = run(view, options);
+        EXPECT_EQ(in_tiles.stats.references, once.stats.references) << options.front().second;
+        EXPECT_EQ(tested_of(in_tiles), tested_of(once)) << options.front().second;
+    }
+}
+
 // The root alone holds what is everywhere.
 TEST_F(OctreeTest, store_once_what_reaches_every_froxel) {
     View view = made_view(device(), 65, 40, 30);
@@ -227,13 +239,15 @@ TEST_F(OctreeTest, say_what_they_serve) {
 
 TEST_F(OctreeTest, refuse_more_nodes_than_can_be_counted) {
     const View view = made_view(device(), 33, 20, 5);
-    const auto technique = make_technique(device(), "octree", {{"tiles", "200x200"}, {"slices", "4000"}});
+    const auto technique =
+        make_technique(device(), "octree", {{"tiles", "200x200"}, {"slices", "4000"}, {"nodes", "dense"}});
     try {
         technique->prepare(view.frame());
         ADD_FAILURE() << "is not refused";
     } catch (const InputError& error) {
         EXPECT_NE(std::string(error.what()).find("200 x 200 tiles of 4000 slices"), std::string::npos) << error.what();
     }
+    expect_exact(view, {{"tiles", "200x200"}, {"slices", "4000"}, {"corners", "computed"}}, "sparse");
 }
 
 } // namespace

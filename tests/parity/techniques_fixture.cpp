@@ -150,6 +150,7 @@ std::vector<Variant> all_variants() {
                         {{"nodes", "dense"},
                          {"unique", "sort"},
                          {"corners", "computed"},
+                         {"assign", "tiles"},
                          {"tiles", "60x34"},
                          {"division", "view_uniform"}}});
     variants.push_back({"octree_leaves",

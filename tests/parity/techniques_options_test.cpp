@@ -69,6 +69,7 @@ TEST_F(TechniquesTest, values_out_of_range_name_the_range) {
     expect_words(refusal(device(), "octree", {{"unique", "hash"}}), {"unique", "hash", "bitmask, sort, compact_sort"});
     expect_words(refusal(device(), "octree", {{"nodes", "full"}}), {"nodes", "full", "sparse, dense"});
     expect_words(refusal(device(), "octree", {{"corners", "none"}}), {"corners", "none", "table, computed"});
+    expect_words(refusal(device(), "octree", {{"assign", "pixels"}}), {"assign", "pixels", "lights, tiles"});
     expect_words(refusal(device(), "octree", {{"inner", "yes"}}), {"inner", "yes", "on, off"});
     expect_words(refusal(device(), "clustered", {{"producer", "magic"}}), {"producer", "magic", "library", "paper"});
     for (const char* value : {"1", "yes", ""})

@@ -19,7 +19,7 @@ class DenseNodes : public OctreeNodes {
           nodes_(device, "bits of nodes") {}
 
     double build(const FroxelGrid& grid, const OctreeLevels& levels, const OccupiedCells& cells) override {
-        count_ = levels.all_nodes();
+        count_ = static_cast<std::uint32_t>(levels.all_nodes());
         nodes_.fit(kWord * gpu::group_count(count_, 32));
         gpu::Commands commands(device_);
         const std::uint32_t start = commands.timestamp();

@@ -2,7 +2,7 @@
 
 #include "lab/techniques/device/counted_lists.h"
 #include "lab/techniques/device/list_structure.h"
-#include "lab/techniques/device/visible_lights.h"
+#include "lab/techniques/device/tile_pass.h"
 #include "lab/techniques/octree/corner_table.h"
 #include "lab/techniques/octree/octree_nodes.h"
 #include "lab/techniques/options.h"
@@ -12,8 +12,11 @@ namespace manylights::lab {
 
 namespace {
 
-constexpr std::uint32_t kAssignCode[] =
-#include "octree_assign.comp.inc"
+constexpr std::uint32_t kLightsCode[] =
+#include "octree_lights.comp.inc"
+    ;
+constexpr std::uint32_t kTilesCode[] =
+#include "octree_tiles.comp.inc"
     ;
 constexpr std::uint32_t kRecordCode[] =
 #include "octree_record.comp.inc"
@@ -25,35 +28,39 @@ constexpr std::uint32_t kLogCode[] =
 #include "octree_log.comp.inc"
     ;
 
-constexpr std::uint32_t kGroupSize = 64; // of the shader
+constexpr std::uint32_t kAssignBuffers = 6; // of octree_place.glsl, besides the lights
 
 // The first of each is what it is by default.
 constexpr const char* kNodes[] = {"sparse", "dense"};
 constexpr const char* kUnique[] = {"bitmask", "sort", "compact_sort"};
 constexpr const char* kCorners[] = {"table", "computed"};
+constexpr const char* kAssign[] = {"lights", "tiles"};
 constexpr const char* kInner[] = {"on", "off"};
 
 struct Options {
     FroxelOptions froxels;
     std::size_t unique;
-    bool is_sparse, has_corner_table, has_inner;
+    bool is_sparse, has_corner_table, has_inner, is_by_tiles;
+
+    std::vector<std::uint32_t> constants() const { return {has_inner ? 1u : 0u, has_corner_table ? 1u : 0u}; }
 };
 
 Options read_options(const OptionValues& values) {
     const TechniqueInfo info = octree_info();
     const OptionReader reader(info, values);
-    return {read_froxel_options(reader), reader.choice("unique", kUnique), reader.choice("nodes", kNodes) == 0,
-            reader.choice("corners", kCorners) == 0, reader.choice("inner", kInner) == 0};
+    return {read_froxel_options(reader),         reader.choice("unique", kUnique),
+            reader.choice("nodes", kNodes) == 0, reader.choice("corners", kCorners) == 0,
+            reader.choice("inner", kInner) == 0, reader.choice("assign", kAssign) != 0};
 }
 
 std::unique_ptr<OccupiedCells> make_cells(gpu::Device& device, std::size_t choice) {
     return choice == 0 ? make_cells_by_bits(device) : make_cells_by_sort(device, choice == 2);
 }
 
-struct AssignPush {
-    DeviceView view;
-    std::uint32_t light_count, is_fill;
-};
+TilePassShader assign_shader(const Options& options) {
+    const std::span<const std::uint32_t> lights = kLightsCode, tiles = kTilesCode;
+    return {"octree (lists)", options.is_by_tiles ? tiles : lights, kAssignBuffers, options.constants()};
+}
 
 class Octree : public PassTechnique {
   public:
@@ -61,12 +68,7 @@ class Octree : public PassTechnique {
         : PassTechnique(device, octree_info(), {"octree", kRecordCode, kShadeCode, kLogCode, 5}), options_(options),
           visible_(device), grid_(device), levels_(device), cells_(make_cells(device, options.unique)),
           nodes_(options.is_sparse ? make_sparse_nodes(device) : make_dense_nodes(device)),
-          assign_pipeline_(device, {"octree (lists)",
-                                    kAssignCode,
-                                    7,
-                                    sizeof(AssignPush),
-                                    {options.has_inner ? 1u : 0u, options.has_corner_table ? 1u : 0u}}),
-          lists_(device, "octree") {
+          assign_(device, assign_shader(options)), lists_(device, "octree") {
         if (options.has_inner && options.has_corner_table) corners_.emplace(device);
     }
 
@@ -94,21 +96,14 @@ class Octree : public PassTechnique {
     double assign(const DeviceView& view) {
         // Without a table the shader reads none, and any buffer will do.
         const gpu::Buffer& corners = corners_ ? corners_->corners() : grid_.buffer();
-        return lists_.build(
-            nodes_->count(), 1,
-            [&](gpu::Commands& commands, const gpu::Buffer& counters, const gpu::Buffer& references, bool is_fill) {
-                if (visible_.count() == 0) return;
-                const AssignPush push{view, visible_.count(), is_fill ? 1u : 0u};
-                commands.dispatch(assign_pipeline_,
-                                  {{visible_.lights()},
-                                   {counters},
-                                   {references},
-                                   {grid_.buffer()},
-                                   {levels_.buffer()},
-                                   {nodes_->nodes()},
-                                   {corners}},
-                                  push, {gpu::group_count(visible_.count(), kGroupSize), 1, 1});
-            });
+        const auto record = [&](gpu::Commands& commands, const gpu::Buffer& counters, const gpu::Buffer& references,
+                                bool is_fill) {
+            assign_.record(
+                commands, {view, grid_.tiles(), visible_},
+                {{counters}, {references}, {grid_.buffer()}, {levels_.buffer()}, {nodes_->nodes()}, {corners}},
+                is_fill ? 1 : 0);
+        };
+        return lists_.build(nodes_->count(), 1, record);
     }
 
     Options options_;
@@ -118,7 +113,7 @@ class Octree : public PassTechnique {
     std::unique_ptr<OccupiedCells> cells_;
     std::unique_ptr<OctreeNodes> nodes_;
     std::optional<CornerTable> corners_;
-    gpu::ComputePipeline assign_pipeline_;
+    TilePass assign_;
     CountedLists lists_;
 };
 
@@ -138,6 +133,9 @@ TechniqueInfo octree_info() {
                             "sparse (default) or dense"});
     info.options.push_back(
         {"corners", "of froxels: from a table, or computed where they are used", "table (default) or computed"});
+    info.options.push_back({"assign",
+                            "who goes down the octree: each light, or each light in each tile under its pixels",
+                            "lights (default) or tiles"});
     info.options.push_back({"inner", "whether nodes above froxels hold lights", "on (default) or off"});
     info.needs_depth = true;
     info.serves_translucent = info.serves_air = false;

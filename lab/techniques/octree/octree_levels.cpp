@@ -37,14 +37,15 @@ void OctreeLevels::lay_out(const FroxelGrid& grid, bool is_sparse) {
     std::uint64_t nodes = 0;
     for (std::uint32_t level = 0; level < count_; ++level) {
         glm::uvec4& along = header.levels[level] = nodes_along(grid, level);
-        along.w = first_nodes_[level] = static_cast<std::uint32_t>(nodes);
+        along.w = static_cast<std::uint32_t>(nodes);
+        first_nodes_[level] = nodes;
         nodes += std::uint64_t{along.x} * along.y * along.z;
     }
-    if (nodes > gpu::PrefixSum::kMaxCount)
-        throw InputError(fmt::format("octree: {} x {} tiles of {} slices have {} nodes with all levels; the most is {}",
+    if (!is_sparse && nodes > gpu::PrefixSum::kMaxCount)
+        throw InputError(fmt::format("octree: {} x {} tiles of {} slices have {} dense nodes; the most is {}",
                                      grid.tiles().tiles_x, grid.tiles().tiles_y, grid.slice_count(), nodes,
                                      gpu::PrefixSum::kMaxCount));
-    first_nodes_[count_] = static_cast<std::uint32_t>(nodes);
+    first_nodes_[count_] = nodes;
     buffer_.fit(sizeof header);
     buffer_.buffer().upload(std::span<const Header>(&header, 1));
 }

@@ -53,7 +53,7 @@ class SparseNodes : public OctreeNodes {
     void begin(const OctreeLevels& levels, const OccupiedCells& cells) {
         std::uint64_t nodes = 1;
         for (std::uint32_t level = 1; level < levels.count(); ++level)
-            nodes += 8 * std::uint64_t{std::min(cells.count(), levels.nodes_of(level))};
+            nodes += 8 * std::min<std::uint64_t>(cells.count(), levels.nodes_of(level));
         pool_.fit(kWord * nodes);
         pool_.buffer().fill(0);
         counts_.fit(sizeof(Counts));
