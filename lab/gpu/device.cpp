@@ -50,7 +50,10 @@ using FeatureChain = vk::StructureChain<vk::PhysicalDeviceFeatures2, vk::Physica
 // Everything that the lab's shaders and passes use.
 FeatureChain required_features() {
     FeatureChain chain;
-    chain.get<vk::PhysicalDeviceFeatures2>().features.setShaderInt64(true);
+    chain.get<vk::PhysicalDeviceFeatures2>()
+        .features.setShaderInt64(true)
+        .setDepthClamp(true)
+        .setFragmentStoresAndAtomics(true);
     chain.get<vk::PhysicalDeviceVulkan12Features>().setScalarBlockLayout(true).setTimelineSemaphore(true);
     chain.get<vk::PhysicalDeviceVulkan13Features>().setDynamicRendering(true).setSynchronization2(true).setMaintenance4(
         true);
@@ -60,10 +63,13 @@ FeatureChain required_features() {
 void check_features(const vk::raii::PhysicalDevice& physical, const DeviceInfo& info) {
     const auto have = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan11Features,
                                             vk::PhysicalDeviceVulkan12Features, vk::PhysicalDeviceVulkan13Features>();
+    const vk::PhysicalDeviceFeatures& features = have.get<vk::PhysicalDeviceFeatures2>().features;
     const auto& features12 = have.get<vk::PhysicalDeviceVulkan12Features>();
     const auto& features13 = have.get<vk::PhysicalDeviceVulkan13Features>();
     const std::pair<const char*, bool> checks[] = {
-        {"shaderInt64", have.get<vk::PhysicalDeviceFeatures2>().features.shaderInt64 == VK_TRUE},
+        {"shaderInt64", features.shaderInt64 == VK_TRUE},
+        {"depthClamp", features.depthClamp == VK_TRUE},
+        {"fragmentStoresAndAtomics", features.fragmentStoresAndAtomics == VK_TRUE},
         {"scalarBlockLayout", features12.scalarBlockLayout == VK_TRUE},
         {"timelineSemaphore", features12.timelineSemaphore == VK_TRUE},
         {"dynamicRendering", features13.dynamicRendering == VK_TRUE},

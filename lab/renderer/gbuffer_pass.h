@@ -38,7 +38,7 @@ class GBufferPass {
 
   private:
     struct State;
-    std::shared_ptr<State> state_;
+    std::unique_ptr<State> state_;
 };
 
 } // namespace manylights::lab

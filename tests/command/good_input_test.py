@@ -103,6 +103,15 @@ class Verify(CommandTest):
                 if other != name:
                     self.assertRegex(done.stdout, rf"(?m)^{other} .*  exact$")
 
+    def test_documented_losses_are_found_and_named(self):
+        for coverage in ("centre_ray", "plain"):
+            for billboards in ("compute", "raster"):
+                done = self.assert_done("verify", *SMALL, "--techniques", "hybrid_lighting", "--set", "tiles=8x4", "--set",
+                                        "coverage=" + coverage, "--set", "billboards=" + billboards, code=1)
+                self.assertRegex(done.stderr, r"\Amanylights: hybrid_lighting: \d+ of 2304 points differ from brute_force; "
+                                 r"first at pixel \(\d+, \d+\): \d+ of \d+ affecting lights, missing lights? \d+.*\n\Z")
+                self.assertRegex(done.stdout, r"(?m)^hybrid_lighting .*  WRONG$")
+
     def test_the_truth_is_brute_force_where_that_is_quick(self):
         done = self.assert_done("verify", *SMALL, "--techniques", "clustered")
         self.assertRegex(done.stdout, r"(?m)^truth: brute_force at all [\d,]+ points$")

@@ -39,6 +39,7 @@ class HybridLightingTest : public TechniquesTest {
 };
 
 const OptionValues kLinked{{"lists", "linked"}};
+const OptionValues kRaster{{"billboards", "raster"}};
 
 // Halfway to the camera on the same rays.
 void bring_points_closer(View& view) {
@@ -90,6 +91,21 @@ TEST_F(HybridLightingTest, links_hold_what_contiguous_lists_hold) {
     }
 }
 
+TEST_F(HybridLightingTest, the_rasteriser_finds_the_tiles_of_the_compute_shader) {
+    const View view = made_view(device(), 97, 60, 1500);
+    for (const char* lists : {"contiguous", "linked"}) {
+        for (const char* coverage : {"tile", "centre_ray"}) {
+            OptionValues options{{"lists", lists}, {"coverage", coverage}, {"billboards", "compute"}};
+            const auto computed = prepared(options, view);
+            options.back().second = "raster";
+            const auto drawn = prepared(options, view);
+            EXPECT_EQ(drawn->stats().references, computed->stats().references) << lists << ", " << coverage;
+            const std::vector<PixelRecord> a = computed->record(view.frame()), b = drawn->record(view.frame());
+            EXPECT_TRUE(std::ranges::equal(a, b, {}, &PixelRecord::tested, &PixelRecord::tested)) << coverage;
+        }
+    }
+}
+
 TEST_F(HybridLightingTest, a_pool_of_links_that_is_too_small_is_filled_again) {
     View view = made_view(device(), 97, 60, 100);
     const std::unique_ptr<Technique> technique = prepared(kLinked, view);
@@ -129,9 +145,9 @@ TEST_F(HybridLightingTest, only_lists_of_all_froxels_serve_points_that_come_late
 // covered.
 TEST_F(HybridLightingTest, tile_centres_lose_lights) {
     const View view = made_view(device(), 97, 60, 1500);
-    for (const char* lists : {"contiguous", "linked"}) {
+    for (const char* billboards : {"compute", "raster"}) {
         for (const char* coverage : {"tile", "centre_ray", "plain"}) {
-            const auto technique = prepared({{"lists", lists}, {"coverage", coverage}}, view);
+            const auto technique = prepared({{"billboards", billboards}, {"coverage", coverage}}, view);
             const VerifyResult result = verified(*technique, view);
             EXPECT_EQ(result.exact(), technique->info().exact) << coverage;
             EXPECT_EQ(technique->info().exact, std::string(coverage) == "tile");
@@ -148,16 +164,16 @@ TEST_F(HybridLightingTest, nothing_is_lost_at_the_ends_of_grids_and_lights) {
     view.lights[4].sphere = {{1e12f, 0, 0}, 2e12f};
     const glm::vec3 eye = view.camera.position;
     view.lights[5].sphere = {{eye.x, eye.y, eye.z}, 3.0f};
-    for (const char* lists : {"contiguous", "linked"})
+    for (const char* billboards : {"compute", "raster"})
         // Of the last grid some tiles are empty.
         for (const char* tiles : {"1x1", "96x61", "130x7"})
             for (const char* slices : {"1", "2", "150"})
-                expect_exact({{"tiles", tiles}, {"slices", slices}, {"lists", lists}}, view);
+                expect_exact({{"tiles", tiles}, {"slices", slices}, {"billboards", billboards}}, view);
 }
 
 TEST_F(HybridLightingTest, a_frame_may_change_its_size_and_be_built_again) {
     const View small = made_view(device(), 40, 31, 300), large = made_view(device(), 97, 60, 700);
-    for (const OptionValues& options : {OptionValues{}, kLinked, OptionValues{{"cells", "occupied"}}}) {
+    for (const OptionValues& options : {OptionValues{}, kLinked, OptionValues{{"cells", "occupied"}}, kRaster}) {
         const std::unique_ptr<Technique> technique = make_technique(device(), "hybrid_lighting", options);
         for (const View* view : {&small, &large, &small}) {
             technique->prepare(view->frame());
@@ -194,6 +210,10 @@ TEST_F(HybridLightingTest, says_what_it_holds) {
     EXPECT_EQ(contiguous.structure_bytes, grid_bytes + 8 * froxels + 4 * contiguous.references);
     const TechniqueStats linked = prepared({{"tiles", "5x3"}, {"slices", "7"}, {"lists", "linked"}}, view)->stats();
     EXPECT_EQ(linked.structure_bytes, grid_bytes + 4 * froxels + 8 * linked.references);
+    // The first pool has room for more.
+    const TechniqueStats one = prepared({{"tiles", "1x1"}, {"slices", "1"}, {"lists", "linked"}}, view)->stats();
+    EXPECT_EQ(one.references, one.visible_lights);
+    EXPECT_EQ(one.structure_bytes, 28 + 4 + 8 * one.references);
 }
 
 } // namespace manylights::lab

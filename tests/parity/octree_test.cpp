@@ -178,10 +178,13 @@ TEST_F(OctreeTest, lists_are_the_same_whether_lights_go_down_once_or_in_each_til
     for (OptionValues options : {OptionValues{{"tiles", "30x17"}}, OptionValues{{"tiles", "7x5"}, {"inner", "off"}},
                                  OptionValues{{"tiles", "130x3"}}, OptionValues{{"tiles", "1x1"}}}) {
         const Result once = run(view, options);
-        options.push_back({"assign", "tiles"});
-        const Result in_tiles = run(view, options);
-        EXPECT_EQ(in_tiles.stats.references, once.stats.references) << options.front().second;
-        EXPECT_EQ(tested_of(in_tiles), tested_of(once)) << options.front().second;
+        options.push_back({"assign", ""});
+        for (const char* assign : {"tiles", "billboards"}) {
+            options.back().second = assign;
+            const Result in_tiles = run(view, options);
+            EXPECT_EQ(in_tiles.stats.references, once.stats.references) << options.front().second << assign;
+            EXPECT_EQ(tested_of(in_tiles), tested_of(once)) << options.front().second << assign;
+        }
     }
 }
 

@@ -56,6 +56,12 @@ constexpr PinnedWork kPinnedWork[] = {
     {"canyon", "culling_2_5d", {109702, 486, 109702, 4096, 2060, 8408, 2060, 510, 12, 0}},
     {"canyon", "culling_2_5d", {24214, 972, 109702, 4096, 2060, 16688, 2060, 510, 24, 2060}, "variant=b"},
     {"canyon", "culling_2_5d", {24214, 972, 24214, 4096, 3425, 16884, 2060, 510, 81, 0}, "variant=c"},
+    {"canyon", "hybrid_lighting", {29103, 486, 29103, 4096, 15540, 64884, 2819, 510, 45, 0}, "tiles=4x3"},
+    {"canyon",
+     "hybrid_lighting",
+     {24296, 486, 24296, 4096, 15150, 127880, 2382, 510, 57, 0},
+     "tiles=4x3 lists=linked division=view_uniform"},
+    {"canyon", "tiled", {52305, 486, 52305, 4096, 2194, 8964, 4085, 510, 36, 0}, "tiles=5x4"},
     {"citadel", "brute_force", {1110016, 0, 0, 4096, 0, 0, 40960, 336, 0, 0}},
     {"citadel", "exact", {2221, 0, 2221, 191, 2221, 13100, 336, 336, 0, 0}},
     {"citadel", "clustered", {12570, 271, 12570, 3195, 12656, 52292, 1835, 336, 33, 0}},
@@ -74,6 +80,12 @@ constexpr PinnedWork kPinnedWork[] = {
     {"citadel", "culling_2_5d", {44237, 271, 44237, 3195, 866, 3632, 866, 336, 10, 0}},
     {"citadel", "culling_2_5d", {6616, 542, 44237, 3195, 866, 7136, 866, 336, 20, 866}, "variant=b"},
     {"citadel", "culling_2_5d", {6616, 542, 6616, 3195, 1975, 11084, 866, 336, 61, 0}, "variant=c"},
+    {"citadel", "hybrid_lighting", {8988, 271, 8988, 3195, 10619, 45800, 1556, 336, 34, 0}, "tiles=4x3"},
+    {"citadel",
+     "hybrid_lighting",
+     {6633, 271, 6633, 3195, 38108, 311544, 994, 336, 36, 0},
+     "tiles=4x3 lists=linked division=view_uniform"},
+    {"citadel", "tiled", {13443, 271, 13443, 3195, 1181, 4912, 1660, 336, 25, 0}, "tiles=5x4"},
     {"bars", "brute_force", {2093056, 0, 0, 4096, 0, 0, 49152, 701, 0, 0}},
     {"bars", "exact", {3966, 0, 3966, 391, 3966, 20080, 701, 701, 0, 0}},
     {"bars", "clustered", {37737, 511, 37737, 3250, 12893, 53240, 4346, 701, 74, 0}},
@@ -92,6 +104,12 @@ constexpr PinnedWork kPinnedWork[] = {
     {"bars", "culling_2_5d", {158156, 511, 158156, 3250, 2748, 11160, 2748, 701, 12, 0}},
     {"bars", "culling_2_5d", {20288, 1022, 158156, 3250, 2748, 22192, 2748, 701, 24, 2748}, "variant=b"},
     {"bars", "culling_2_5d", {20288, 1022, 20288, 3250, 5083, 23516, 2748, 701, 96, 0}, "variant=c"},
+    {"bars", "hybrid_lighting", {28782, 511, 28782, 3250, 11318, 47996, 5039, 701, 85, 0}, "tiles=4x3"},
+    {"bars",
+     "hybrid_lighting",
+     {16494, 511, 16494, 3250, 52490, 426600, 2878, 701, 119, 0},
+     "tiles=4x3 lists=linked division=view_uniform"},
+    {"bars", "tiled", {113538, 511, 113538, 3250, 4458, 18020, 6990, 701, 36, 0}, "tiles=5x4"},
     {"cornell", "brute_force", {1183744, 0, 0, 4096, 0, 0, 36864, 1333, 0, 0}},
     {"cornell", "exact", {1749, 0, 1749, 1284, 1749, 11212, 1333, 1333, 0, 0}},
     {"cornell", "clustered", {87758, 289, 87758, 4096, 7944, 33444, 5056, 1333, 24, 0}},
@@ -110,6 +128,12 @@ constexpr PinnedWork kPinnedWork[] = {
     {"cornell", "culling_2_5d", {204722, 289, 204722, 4096, 3367, 13636, 3367, 1333, 9, 0}},
     {"cornell", "culling_2_5d", {41182, 578, 204722, 4096, 3367, 27144, 3367, 1333, 18, 3367}, "variant=b"},
     {"cornell", "culling_2_5d", {41182, 578, 41182, 4096, 5093, 23556, 3367, 1333, 44, 0}, "variant=c"},
+    {"cornell", "hybrid_lighting", {116180, 289, 116180, 4096, 7455, 31644, 6965, 1333, 20, 0}, "tiles=4x3"},
+    {"cornell",
+     "hybrid_lighting",
+     {34600, 289, 34600, 4096, 27897, 229856, 4633, 1333, 48, 0},
+     "tiles=4x3 lists=linked division=view_uniform"},
+    {"cornell", "tiled", {132085, 289, 132085, 4096, 5448, 21980, 10924, 1333, 24, 0}, "tiles=5x4"},
 };
 
 class PinnedWorkTest : public TechniquesTest, public testing::WithParamInterface<PinnedWork> {};
@@ -143,8 +167,10 @@ Work work_of(const std::vector<PixelRecord>& records, const TechniqueStats& stat
 OptionValues options_of(const PinnedWork& pinned) {
     const std::string name = pinned.technique;
     if (name == "brute_force" || name == "exact") return {};
-    OptionValues options{{"tile_size", "8"}};
-    std::istringstream words(pinned.set);
+    const std::string set = pinned.set;
+    OptionValues options;
+    if (set.find("tiles=") == std::string::npos) options.push_back({"tile_size", "8"});
+    std::istringstream words(set);
     for (std::string word; words >> word;) {
         const std::size_t sign = word.find('=');
         options.emplace_back(word.substr(0, sign), word.substr(sign + 1));

@@ -144,6 +144,10 @@ std::vector<Variant> all_variants() {
     variants.push_back({"hybrid_lighting_linked_occupied",
                         "hybrid_lighting",
                         {{"lists", "linked"}, {"cells", "occupied"}, {"slices", "40"}}});
+    variants.push_back({"hybrid_lighting_raster", "hybrid_lighting", {{"billboards", "raster"}}});
+    variants.push_back({"hybrid_lighting_raster_linked",
+                        "hybrid_lighting",
+                        {{"billboards", "raster"}, {"lists", "linked"}, {"tiles", "60x34"}, {"cells", "occupied"}}});
     variants.push_back({"octree", "octree", {}});
     variants.push_back({"octree_dense",
                         "octree",
@@ -156,6 +160,7 @@ std::vector<Variant> all_variants() {
     variants.push_back({"octree_leaves",
                         "octree",
                         {{"inner", "off"},
+                         {"assign", "billboards"},
                          {"unique", "compact_sort"},
                          {"tiles", "32x32"},
                          {"division", "screen_uniform"},

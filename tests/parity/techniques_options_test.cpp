@@ -69,7 +69,8 @@ TEST_F(TechniquesTest, values_out_of_range_name_the_range) {
     expect_words(refusal(device(), "octree", {{"unique", "hash"}}), {"unique", "hash", "bitmask, sort, compact_sort"});
     expect_words(refusal(device(), "octree", {{"nodes", "full"}}), {"nodes", "full", "sparse, dense"});
     expect_words(refusal(device(), "octree", {{"corners", "none"}}), {"corners", "none", "table, computed"});
-    expect_words(refusal(device(), "octree", {{"assign", "pixels"}}), {"assign", "pixels", "lights, tiles"});
+    expect_words(refusal(device(), "octree", {{"assign", "pixels"}}),
+                 {"assign", "pixels", "lights, tiles, billboards"});
     expect_words(refusal(device(), "octree", {{"inner", "yes"}}), {"inner", "yes", "on, off"});
     expect_words(refusal(device(), "clustered", {{"producer", "magic"}}), {"producer", "magic", "library", "paper"});
     for (const char* value : {"1", "yes", ""})
@@ -99,6 +100,7 @@ TEST_F(TechniquesTest, values_out_of_range_name_the_range) {
         expect_words(refusal(device(), "hybrid_lighting", {{"slices", value}}), {"slices=", value, "1 to 4096"});
     expect_words(refusal(device(), "hybrid_lighting", {{"division", "log"}}),
                  {"division=log", "exponential, view_uniform, screen_uniform"});
+    expect_words(refusal(device(), "hybrid_lighting", {{"billboards", "quads"}}), {"quads", "compute, raster"});
     expect_words(refusal(device(), "hybrid_lighting", {{"lists", "L"}}), {"lists=L", "contiguous, linked"});
     expect_words(refusal(device(), "hybrid_lighting", {{"cells", "some"}}), {"cells=some", "all, occupied"});
     expect_words(refusal(device(), "hybrid_lighting", {{"coverage", "ray"}}),

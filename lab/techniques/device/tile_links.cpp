@@ -19,7 +19,8 @@ constexpr std::uint64_t kLinksPerLight = 4;
 
 TileLinks::TileLinks(gpu::Device& device, const TilePassShader& shader)
     : device_(device), name_(shader.name),
-      pass_(device, {shader.name + " (links)", shader.code, kLinkBuffers + shader.buffer_count, shader.constants}),
+      pass_(device, {shader.name + " (links)", shader.code, kLinkBuffers + shader.buffer_count, shader.constants,
+                     shader.billboards}),
       heads_(device, "heads of lists"), links_(device, "links of lists"), taken_(device, "links, their number") {}
 
 double TileLinks::build(const TilePassInput& input, const std::vector<gpu::Binding>& buffers, std::uint32_t lists) {

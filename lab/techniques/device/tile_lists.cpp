@@ -10,7 +10,8 @@ constexpr std::uint32_t kListBuffers = 2; // of tile_lists.glsl; the technique's
 
 TileLists::TileLists(gpu::Device& device, const TilePassShader& shader)
     : lists_(device, shader.name),
-      pass_(device, {shader.name + " (lists)", shader.code, kListBuffers + shader.buffer_count, shader.constants}) {}
+      pass_(device, {shader.name + " (lists)", shader.code, kListBuffers + shader.buffer_count, shader.constants,
+                     shader.billboards}) {}
 
 double TileLists::build(const TileListsInput& input) {
     const auto record = [&](gpu::Commands& commands, const gpu::Buffer& counters, const gpu::Buffer& references,

@@ -5,8 +5,10 @@
 //
 // which is called once for each light and each tile under its pixels.
 //
-// An invocation goes over the tiles of a light of its own, unless these are many: then the workgroup goes over them
-// together, so that one huge light does not keep one invocation busy for long.
+// In a compute shader an invocation goes over the tiles of a light of its own, unless these are many: then the workgroup
+// goes over them together, so that one huge light does not keep one invocation busy for long. With MANYLIGHTS_FRAGMENT the
+// rasteriser finds the tiles: the target has a pixel per tile, and each light is drawn there as a rectangle, its
+// billboard, whose corners a vertex shader (MANYLIGHTS_VERTEX, without `visit`) takes from billboard_corner.
 #ifndef MANYLIGHTS_LAB_TILE_PASS_GLSL
 #define MANYLIGHTS_LAB_TILE_PASS_GLSL
 
@@ -14,7 +16,6 @@
 #include "lab/techniques/device/tile_grid.glsl"
 #include "lab/techniques/device/visible_light.glsl"
 
-layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 0) readonly buffer Lights { VisibleLight d[]; } lights;
 layout(push_constant) uniform Push {
     DeviceView view;
@@ -23,36 +24,16 @@ layout(push_constant) uniform Push {
     uint TILE_PASS_WORD;
 };
 
-const uint kGroupSize = 64u;
-const uint kMany = 64u; // tiles
-
-void visit(VisibleLight light, uvec2 tile);
-
-// The tiles under the light's pixels, row by row.
+// The tiles under the light's pixels.
 struct LightTiles {
-    uvec2 first;
-    uint columns, count;
+    uvec2 first, size;
 };
 
 LightTiles tiles_of(VisibleLight light) {
     LightTiles tiles;
     tiles.first = tile_of(grid, first_pixel(light));
-    uvec2 size = tile_of(grid, last_pixel(light)) - tiles.first + 1u;
-    tiles.columns = size.x;
-    tiles.count = size.x * size.y;
+    tiles.size = tile_of(grid, last_pixel(light)) - tiles.first + 1u;
     return tiles;
-}
-
-void visit_each(VisibleLight light, LightTiles tiles, uint start, uint stride) {
-    for (uint i = start; i < tiles.count; i += stride)
-        visit(light, tiles.first + uvec2(i % tiles.columns, i / tiles.columns));
-}
-
-void visit_many(uint first_light) {
-    for (uint i = first_light; i < min(first_light + kGroupSize, light_count); ++i) {
-        LightTiles tiles = tiles_of(lights.d[i]);
-        if (tiles.count > kMany) visit_each(lights.d[i], tiles, gl_LocalInvocationIndex, kGroupSize);
-    }
 }
 
 // The depths of the sphere itself. They need no slack beside the culling radius, which has more to spare than the
@@ -69,12 +50,63 @@ DepthSpan depths_in_tile(VisibleLight light, uvec2 tile) {
     return rectangle_depths(view, first_pixel_of(grid, tile), last_pixel_of(grid, tile, view.size), light.sphere);
 }
 
+#if defined(MANYLIGHTS_VERTEX)
+
+// A corner of the light's billboard, in tiles from the image's corner: of two triangles, 0 1 2 and 2 1 3. Snapped, it goes
+// around the tiles under the light's pixels, so that each of them has its centre inside and is drawn, once, by every
+// rasteriser, though none need be conservative.
+vec2 billboard_corner(VisibleLight light, uint vertex, bool is_snapped) {
+    const uint kCorners[6] = uint[6](0u, 1u, 2u, 2u, 1u, 3u);
+    uvec2 side = uvec2(kCorners[vertex] & 1u, kCorners[vertex] >> 1u);
+    LightTiles tiles = tiles_of(light);
+    if (is_snapped) return vec2(tiles.first + side * tiles.size);
+    uvec2 pixel = first_pixel(light) + side * (last_pixel(light) + 1u - first_pixel(light));
+    return vec2(pixel) * vec2(grid.tiles) / vec2(grid.span);
+}
+
+// In the middle of the clip volume's depths, so that no billboard is clipped.
+vec4 clip_position(vec2 corner) { return vec4(2.0 * corner / vec2(grid.tiles) - 1.0, 0.5, 1.0); }
+
+#else
+
+void visit(VisibleLight light, uvec2 tile);
+
+#if defined(MANYLIGHTS_FRAGMENT)
+
+layout(location = 0) flat in uint light_number;
+
+void main() { visit(lights.d[light_number], uvec2(gl_FragCoord.xy)); }
+
+#else
+
+layout(local_size_x = 64) in;
+const uint kGroupSize = 64u;
+const uint kMany = 64u; // tiles
+
+uint count_of(LightTiles tiles) { return tiles.size.x * tiles.size.y; }
+
+// Row by row.
+void visit_each(VisibleLight light, LightTiles tiles, uint start, uint stride) {
+    for (uint i = start; i < count_of(tiles); i += stride)
+        visit(light, tiles.first + uvec2(i % tiles.size.x, i / tiles.size.x));
+}
+
+void visit_many(uint first_light) {
+    for (uint i = first_light; i < min(first_light + kGroupSize, light_count); ++i) {
+        LightTiles tiles = tiles_of(lights.d[i]);
+        if (count_of(tiles) > kMany) visit_each(lights.d[i], tiles, gl_LocalInvocationIndex, kGroupSize);
+    }
+}
+
 void main() {
     visit_many(gl_WorkGroupID.x * kGroupSize);
     if (gl_GlobalInvocationID.x >= light_count) return;
     VisibleLight light = lights.d[gl_GlobalInvocationID.x];
     LightTiles tiles = tiles_of(light);
-    if (tiles.count <= kMany) visit_each(light, tiles, 0u, 1u);
+    if (count_of(tiles) <= kMany) visit_each(light, tiles, 0u, 1u);
 }
+
+#endif
+#endif
 
 #endif

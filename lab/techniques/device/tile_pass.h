@@ -9,10 +9,11 @@
 namespace manylights::lab {
 
 struct TilePassShader {
-    std::string name; ///< in messages
-    std::span<const std::uint32_t> code;
-    std::uint32_t buffer_count; ///< from binding 1 on; the lights are before them
+    std::string name;                    ///< in messages
+    std::span<const std::uint32_t> code; ///< of a compute shader, or of a fragment shader
+    std::uint32_t buffer_count;          ///< from binding 1 on; the lights are before them
     std::vector<std::uint32_t> constants;
+    std::span<const std::uint32_t> billboards{}; ///< with a fragment shader: the vertex shader
 };
 
 struct TilePassInput {
@@ -30,7 +31,9 @@ class TilePass {
                 std::uint32_t word) const;
 
   private:
-    gpu::ComputePipeline pipeline_;
+    // One of the two.
+    std::optional<gpu::ComputePipeline> compute_;
+    std::optional<gpu::RasterPipeline> raster_;
 };
 
 } // namespace manylights::lab

@@ -32,12 +32,16 @@ DepthSpan ray_depths(vec4 sphere, uvec2 tile) {
     return span;
 }
 
-// As a rasteriser that is not conservative decides.
+// As a rasteriser that is not conservative decides, which there has decided already.
+#if defined(MANYLIGHTS_FRAGMENT)
+bool holds_centre(VisibleLight light, uvec2 tile) { return true; }
+#else
 bool holds_centre(VisibleLight light, uvec2 tile) {
     vec2 centre = centre_of(tile);
     return all(greaterThanEqual(centre, vec2(first_pixel(light)))) &&
            all(lessThan(centre, vec2(last_pixel(light) + 1u)));
 }
+#endif
 
 // Empty: low is above high.
 DepthSpan covered_depths(VisibleLight light, uvec2 tile) {

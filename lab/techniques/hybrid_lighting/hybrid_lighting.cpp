@@ -18,23 +18,32 @@ constexpr std::uint32_t kListsCode[] =
 constexpr std::uint32_t kLinksCode[] =
 #include "hybrid_links.comp.inc"
     ;
+constexpr std::uint32_t kBillboardsCode[] =
+#include "hybrid_billboards.vert.inc"
+    ;
+constexpr std::uint32_t kListsFragmentCode[] =
+#include "hybrid_lists.frag.inc"
+    ;
+constexpr std::uint32_t kLinksFragmentCode[] =
+#include "hybrid_links.frag.inc"
+    ;
 
 // The first of each is what it is by default.
 constexpr const char* kLists[] = {"contiguous", "linked"};
 constexpr const char* kCells[] = {"all", "occupied"};
+constexpr const char* kBillboards[] = {"compute", "raster"};
 constexpr const char* kCoverages[] = {"tile", "centre_ray", "plain"}; // as coverage.glsl numbers them
 
 struct Options {
     FroxelOptions froxels;
-    bool is_linked, only_occupied;
+    bool is_linked, only_occupied, is_raster;
     std::uint32_t coverage;
-
-    std::vector<std::uint32_t> constants() const { return {coverage, only_occupied ? 1u : 0u}; }
 };
 
 Options read_options(const OptionValues& values) {
     const OptionReader reader(hybrid_lighting_info(), values);
     return {read_froxel_options(reader), reader.choice("lists", kLists) != 0, reader.choice("cells", kCells) != 0,
+            reader.choice("billboards", kBillboards) != 0,
             static_cast<std::uint32_t>(reader.choice("coverage", kCoverages))};
 }
 
@@ -50,15 +59,26 @@ PassShaders shaders(const Options& options) {
     return options.is_linked ? froxel_link_shaders("hybrid_lighting") : froxel_list_shaders("hybrid_lighting");
 }
 
+TilePassShader pass_shader(const Options& options) {
+    using Code = std::span<const std::uint32_t>;
+    const Code compute = options.is_linked ? Code(kLinksCode) : Code(kListsCode);
+    const Code fragment = options.is_linked ? Code(kLinksFragmentCode) : Code(kListsFragmentCode);
+    return {"hybrid_lighting",
+            options.is_raster ? fragment : compute,
+            2,
+            {options.coverage, options.only_occupied ? 1u : 0u},
+            options.is_raster ? Code(kBillboardsCode) : Code()};
+}
+
 class HybridLighting : public PassTechnique {
   public:
     HybridLighting(gpu::Device& device, const Options& options)
         : PassTechnique(device, info_with(options), shaders(options)), options_(options), visible_(device),
           grid_(device), occupied_(device) {
         if (options.is_linked)
-            links_.emplace(device, TilePassShader{"hybrid_lighting", kLinksCode, 2, options.constants()});
+            links_.emplace(device, pass_shader(options));
         else
-            lists_.emplace(device, TilePassShader{"hybrid_lighting", kListsCode, 2, options.constants()});
+            lists_.emplace(device, pass_shader(options));
     }
 
   protected:
@@ -107,6 +127,10 @@ TechniqueInfo hybrid_lighting_info() {
         info.options.end(),
         {{"lists", "how a froxel's lights are kept",
           "contiguous (default): counted, then written; linked: a list of links, in one pass"},
+         {"billboards", "what goes over the tiles that a light covers",
+          "compute (default): a thread or more per light; raster: the rasteriser, which draws a rectangle per light "
+          "into "
+          "an image of a pixel per tile"},
          {"cells", "which froxels have lists", "all (default), or occupied: those that hold points"},
          {"coverage", "when a light covers a tile, and at which depths",
           "tile (default): where its sphere meets the tile's pyramid; lossy: centre_ray, where the ray through the "

@@ -18,6 +18,12 @@ constexpr std::uint32_t kLightsCode[] =
 constexpr std::uint32_t kTilesCode[] =
 #include "octree_tiles.comp.inc"
     ;
+constexpr std::uint32_t kFragmentCode[] =
+#include "octree_tiles.frag.inc"
+    ;
+constexpr std::uint32_t kBillboardsCode[] =
+#include "octree_billboards.vert.inc"
+    ;
 constexpr std::uint32_t kRecordCode[] =
 #include "octree_record.comp.inc"
     ;
@@ -34,13 +40,14 @@ constexpr std::uint32_t kAssignBuffers = 6; // of octree_place.glsl, besides the
 constexpr const char* kNodes[] = {"sparse", "dense"};
 constexpr const char* kUnique[] = {"bitmask", "sort", "compact_sort"};
 constexpr const char* kCorners[] = {"table", "computed"};
-constexpr const char* kAssign[] = {"lights", "tiles"};
+constexpr const char* kAssign[] = {"lights", "tiles", "billboards"};
 constexpr const char* kInner[] = {"on", "off"};
 
 struct Options {
     FroxelOptions froxels;
     std::size_t unique;
-    bool is_sparse, has_corner_table, has_inner, is_by_tiles;
+    bool is_sparse, has_corner_table, has_inner;
+    std::size_t assign;
 
     std::vector<std::uint32_t> constants() const { return {has_inner ? 1u : 0u, has_corner_table ? 1u : 0u}; }
 };
@@ -50,7 +57,7 @@ Options read_options(const OptionValues& values) {
     const OptionReader reader(info, values);
     return {read_froxel_options(reader),         reader.choice("unique", kUnique),
             reader.choice("nodes", kNodes) == 0, reader.choice("corners", kCorners) == 0,
-            reader.choice("inner", kInner) == 0, reader.choice("assign", kAssign) != 0};
+            reader.choice("inner", kInner) == 0, reader.choice("assign", kAssign)};
 }
 
 std::unique_ptr<OccupiedCells> make_cells(gpu::Device& device, std::size_t choice) {
@@ -58,8 +65,11 @@ std::unique_ptr<OccupiedCells> make_cells(gpu::Device& device, std::size_t choic
 }
 
 TilePassShader assign_shader(const Options& options) {
-    const std::span<const std::uint32_t> lights = kLightsCode, tiles = kTilesCode;
-    return {"octree (lists)", options.is_by_tiles ? tiles : lights, kAssignBuffers, options.constants()};
+    using Code = std::span<const std::uint32_t>;
+    const Code code[] = {kLightsCode, kTilesCode, kFragmentCode};
+    const bool is_drawn = options.assign == 2;
+    return {"octree (lists)", code[options.assign], kAssignBuffers, options.constants(),
+            is_drawn ? Code(kBillboardsCode) : Code()};
 }
 
 class Octree : public PassTechnique {
@@ -133,9 +143,11 @@ TechniqueInfo octree_info() {
                             "sparse (default) or dense"});
     info.options.push_back(
         {"corners", "of froxels: from a table, or computed where they are used", "table (default) or computed"});
-    info.options.push_back({"assign",
-                            "who goes down the octree: each light, or each light in each tile under its pixels",
-                            "lights (default) or tiles"});
+    info.options.push_back(
+        {"assign",
+         "who goes down the octree: each light, or each light in each tile under its pixels, by a compute shader or "
+         "by the rasteriser",
+         "lights (default), tiles or billboards"});
     info.options.push_back({"inner", "whether nodes above froxels hold lights", "on (default) or off"});
     info.needs_depth = true;
     info.serves_translucent = info.serves_air = false;

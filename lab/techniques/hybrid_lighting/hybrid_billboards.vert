@@ -1,0 +1,14 @@
+#version 460
+// The billboards of the lights in view: an instance each.
+#extension GL_GOOGLE_include_directive : require
+#define MANYLIGHTS_VERTEX
+#define TILE_PASS_WORD unused
+#include "lab/techniques/hybrid_lighting/coverage.glsl"
+
+layout(location = 0) flat out uint light_number;
+
+void main() {
+    light_number = gl_InstanceIndex;
+    vec2 corner = billboard_corner(lights.d[light_number], gl_VertexIndex, coverage != kPlain);
+    gl_Position = clip_position(corner);
+}

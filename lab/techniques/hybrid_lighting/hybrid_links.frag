@@ -1,0 +1,5 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define MANYLIGHTS_FRAGMENT
+#define MANYLIGHTS_LINKED
+#include "lab/techniques/hybrid_lighting/hybrid_lists.glsl"
