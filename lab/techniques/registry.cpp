@@ -10,6 +10,7 @@
 #include "lab/techniques/exact/exact.h"
 #include "lab/techniques/hybrid_light_trees/hybrid_light_trees.h"
 #include "lab/techniques/hybrid_lighting/hybrid_lighting.h"
+#include "lab/techniques/octree/octree.h"
 #include "lab/techniques/tiled/tiled.h"
 #include "lab/techniques/tiled_light_trees/tiled_light_trees.h"
 #include "lab/techniques/z_bins/z_bins.h"
@@ -35,6 +36,7 @@ constexpr Entry kTechniques[] = {
     {culling_2_5d_info, make_culling_2_5d},
     {clustered_samples_info, make_clustered_samples},
     {z_bins_info, make_z_bins},
+    {octree_info, make_octree},
     {hybrid_lighting_info, make_hybrid_lighting},
 };
 

@@ -134,20 +134,38 @@ std::vector<Variant> all_variants() {
     variants.push_back({"clustered_samples_bitmap", "clustered_samples", {{"unique", "bitmap"}, {"fan_out", "16"}}});
     variants.push_back(
         {"clustered_samples_hierarchy", "clustered_samples", {{"query", "hierarchy"}, {"fan_out", "8"}}});
-    variants.push_back({"hybrid_lighting", "hybrid_lighting", {}});
+    // Few slices: lists of all froxels hold the large lights of made views a thousand times over.
+    variants.push_back({"hybrid_lighting", "hybrid_lighting", {{"slices", "16"}}});
     variants.push_back({"hybrid_lighting_linked",
                         "hybrid_lighting",
-                        {{"lists", "linked"}, {"tiles", "60x34"}, {"division", "view_uniform"}}});
+                        {{"lists", "linked"}, {"tiles", "32x32"}, {"division", "view_uniform"}, {"slices", "8"}}});
     variants.push_back({"hybrid_lighting_occupied",
                         "hybrid_lighting",
                         {{"cells", "occupied"}, {"tiles", "7x11"}, {"division", "screen_uniform"}, {"slices", "256"}}});
     variants.push_back({"hybrid_lighting_linked_occupied",
                         "hybrid_lighting",
                         {{"lists", "linked"}, {"cells", "occupied"}, {"slices", "40"}}});
-    variants.push_back({"hybrid_lighting_raster", "hybrid_lighting", {{"billboards", "raster"}}});
+    variants.push_back({"hybrid_lighting_raster", "hybrid_lighting", {{"billboards", "raster"}, {"slices", "16"}}});
     variants.push_back({"hybrid_lighting_raster_linked",
                         "hybrid_lighting",
                         {{"billboards", "raster"}, {"lists", "linked"}, {"tiles", "60x34"}, {"cells", "occupied"}}});
+    variants.push_back({"octree", "octree", {}});
+    variants.push_back({"octree_dense",
+                        "octree",
+                        {{"nodes", "dense"},
+                         {"unique", "sort"},
+                         {"corners", "computed"},
+                         {"assign", "tiles"},
+                         {"tiles", "60x34"},
+                         {"division", "view_uniform"}}});
+    variants.push_back({"octree_leaves",
+                        "octree",
+                        {{"inner", "off"},
+                         {"assign", "billboards"},
+                         {"unique", "compact_sort"},
+                         {"tiles", "32x32"},
+                         {"division", "screen_uniform"},
+                         {"slices", "256"}}});
     return variants;
 }
 

@@ -66,6 +66,12 @@ TEST_F(TechniquesTest, values_out_of_range_name_the_range) {
     expect_words(refusal(device(), "z_bins", {{"summary", "1"}}), {"summary", "1", "off, on"});
     expect_words(refusal(device(), "z_bins", {{"loop", "group"}}), {"loop", "group", "lane, wave"});
     expect_words(refusal(device(), "z_bins", {{"sort_key", "far"}}), {"sort_key", "far", "centre, near"});
+    expect_words(refusal(device(), "octree", {{"unique", "hash"}}), {"unique", "hash", "bitmask, sort, compact_sort"});
+    expect_words(refusal(device(), "octree", {{"nodes", "full"}}), {"nodes", "full", "sparse, dense"});
+    expect_words(refusal(device(), "octree", {{"corners", "none"}}), {"corners", "none", "table, computed"});
+    expect_words(refusal(device(), "octree", {{"assign", "pixels"}}),
+                 {"assign", "pixels", "lights, tiles, billboards"});
+    expect_words(refusal(device(), "octree", {{"inner", "yes"}}), {"inner", "yes", "on, off"});
     expect_words(refusal(device(), "clustered", {{"producer", "magic"}}), {"producer", "magic", "library", "paper"});
     for (const char* value : {"1", "yes", ""})
         expect_words(refusal(device(), "depth_windows", {{"depth", value}}), {"depth_windows", "depth=", "off, on"});
@@ -74,7 +80,7 @@ TEST_F(TechniquesTest, values_out_of_range_name_the_range) {
     for (const char* name : {"tiled", "culling_2_5d"})
         for (const char* value : {"7", "65", "16px", ""})
             expect_words(refusal(device(), name, {{"tile_size", value}}), {name, "tile_size", "8", "64"});
-    expect_words(refusal(device(), "tiled", {{"tiles", "32"}}), {"tiled", "tiles=32", "1 to 8192"});
+    expect_words(refusal(device(), "tiled", {{"tiles", "32"}}), {"tiled", "tiles=32", "1 to 4096"});
     expect_words(refusal(device(), "tiled", {{"depth", "min"}}), {"tiled", "depth=min", "minmax, max, none"});
     expect_words(refusal(device(), "tiled", {{"test", "cone"}}), {"test=cone", "narrowed, rectangle, planes"});
     expect_words(refusal(device(), "culling_2_5d", {{"variant", "d"}}), {"culling_2_5d", "variant=d", "a, b, c"});
@@ -87,9 +93,9 @@ TEST_F(TechniquesTest, values_out_of_range_name_the_range) {
     expect_words(refusal(device(), "clustered_samples", {{"fan_out", "64"}}), {"fan_out", "64", "32, 16, 8"});
     expect_words(refusal(device(), "clustered_samples", {{"normals", "1"}}), {"normals", "off, on"});
     expect_words(refusal(device(), "clustered_samples", {{"query", "list"}}), {"query", "clusters, hierarchy"});
-    for (const char* value : {"", "30", "x17", "30x", "0x17", "30x8193", "30x17x2", "30,17"})
+    for (const char* value : {"", "30", "x17", "30x", "0x17", "30x4097", "30x17x2", "30,17"})
         expect_words(refusal(device(), "hybrid_lighting", {{"tiles", value}}),
-                     {"hybrid_lighting", "tiles=", "1 to 8192"});
+                     {"hybrid_lighting", "tiles=", "1 to 4096"});
     for (const char* value : {"0", "4097"})
         expect_words(refusal(device(), "hybrid_lighting", {{"slices", value}}), {"slices=", value, "1 to 4096"});
     expect_words(refusal(device(), "hybrid_lighting", {{"division", "log"}}),

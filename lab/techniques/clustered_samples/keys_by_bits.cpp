@@ -1,6 +1,6 @@
 #include "lab/gpu/device.h"
-#include "lab/techniques/clustered_samples/spread.h"
 #include "lab/techniques/clustered_samples/unique_keys.h"
+#include "lab/techniques/device/spread.h"
 
 namespace manylights::lab {
 
@@ -12,8 +12,8 @@ constexpr std::uint32_t kPagesCode[] =
 constexpr std::uint32_t kMarkCode[] =
 #include "clusters_mark.comp.inc"
     ;
-constexpr std::uint32_t kCountCode[] =
-#include "clusters_count.comp.inc"
+constexpr std::uint32_t kBitCountsCode[] =
+#include "bit_counts.comp.inc"
     ;
 constexpr std::uint32_t kNumberCode[] =
 #include "clusters_number.comp.inc"
@@ -40,7 +40,7 @@ class KeysByBits : public UniqueKeys {
   public:
     KeysByBits(gpu::Device& device, bool is_paged)
         : UniqueKeys(device), is_paged_(is_paged),
-          count_pipeline_(device, {"clusters, counts of bits", kCountCode, 2, kWord, {}}),
+          count_pipeline_(device, {"counts of bits", kBitCountsCode, 2, kWord, {}}),
           mark_pipeline_(device, {"clusters, marks", kMarkCode, 6, sizeof(SamplesPush), {is_paged ? 1u : 0u}}),
           number_pipeline_(device, {"clusters, numbers", kNumberCode, 9, sizeof(SamplesPush), {is_paged ? 1u : 0u}}),
           pages_{{device, "pages of keys"}, {device, "places of pages"}}, marks_{{device, "marks of keys"},

@@ -17,8 +17,9 @@ struct TileGrid {
     std::uint32_t tile_count() const { return tiles_x * tiles_y; }
 };
 
-/// How finely an image of up to 2^16 pixels along an axis may be divided, so that products stay within 32 bits.
-constexpr std::uint32_t kMostTilesOfAxis = 8192;
+/// As many as may be asked for: products with up to 2^16 pixels stay within 32 bits, and every device can draw into an
+/// image with a pixel per tile.
+constexpr std::uint32_t kMostTilesOfAxis = 4096;
 
 inline TileGrid tile_grid(std::uint32_t width, std::uint32_t height, std::uint32_t tile_size) {
     const std::uint32_t tiles_x = gpu::group_count(width, tile_size), tiles_y = gpu::group_count(height, tile_size);

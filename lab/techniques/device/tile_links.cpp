@@ -36,8 +36,9 @@ double TileLinks::build(const TilePassInput& input, const std::vector<gpu::Bindi
 std::uint64_t TileLinks::bytes() const { return heads_.buffer().bytes() + link_count_ * kLinkBytes; }
 
 void TileLinks::reserve(std::uint64_t links) {
+    capacity_ = 0; // should there be no memory
+    links_.fit(links * kLinkBytes);
     capacity_ = links;
-    links_.fit(capacity_ * kLinkBytes);
 }
 
 double TileLinks::link(const TilePassInput& input, const std::vector<gpu::Binding>& buffers) {

@@ -1,11 +1,8 @@
 #pragma once
-// Lists of lights, one or more per tile, of exactly the length that they need: lights are counted, the counts summed,
-// the sum read back, and the very same shader goes over the lights once more and writes them. Which lights a tile's
-// lists get is the technique's own text: it includes tile_lists.glsl and has a function of its own for a light and a
-// tile.
+// Lists of lights, one or more per tile. Which lights a tile's lists get is the technique's own text: it includes
+// tile_lists.glsl and has a function of its own for a light and a tile.
 
-#include "lab/gpu/prefix_sum.h"
-#include "lab/techniques/device/fitted_buffer.h"
+#include "lab/techniques/device/counted_lists.h"
 #include "lab/techniques/device/tile_pass.h"
 
 namespace manylights::lab {
@@ -28,24 +25,13 @@ class TileLists {
     double build(const TileListsInput& input);
 
     /// MlCell each, tile by tile. A list's lights are in no particular order.
-    const gpu::Buffer& cells() const { return cells_.buffer(); }
-    const gpu::Buffer& references() const { return references_.buffer(); }
-    std::uint64_t reference_count() const { return reference_count_; }
+    const gpu::Buffer& cells() const { return lists_.cells(); }
+    const gpu::Buffer& references() const { return lists_.references(); }
+    std::uint64_t reference_count() const { return lists_.reference_count(); }
 
   private:
-    double count(const TileListsInput& input, std::uint32_t lists);
-    void check_total(std::uint32_t words_per_reference) const;
-    double fill(const TileListsInput& input, std::uint32_t lists);
-    void record_pass(gpu::Commands& commands, const TileListsInput& input, const gpu::Buffer& counters,
-                     const gpu::Buffer& references, bool is_fill) const;
-
-    gpu::Device& device_;
-    std::string name_;
-    gpu::PrefixSum prefix_sum_;
+    CountedLists lists_;
     TilePass pass_;
-    gpu::ComputePipeline cells_pipeline_;
-    FittedBuffer counts_, places_, total_, cells_, references_;
-    std::uint64_t reference_count_ = 0;
 };
 
 } // namespace manylights::lab
