@@ -9,6 +9,8 @@
 #include "lab/techniques/depth_windows_wave/depth_windows_wave.h"
 #include "lab/techniques/exact/exact.h"
 #include "lab/techniques/hybrid_light_trees/hybrid_light_trees.h"
+#include "lab/techniques/light_linked_list/light_linked_list.h"
+#include "lab/techniques/light_volumes/light_volumes.h"
 #include "lab/techniques/tiled/tiled.h"
 #include "lab/techniques/tiled_light_trees/tiled_light_trees.h"
 #include "lab/techniques/z_bins/z_bins.h"
@@ -34,6 +36,8 @@ constexpr Entry kTechniques[] = {
     {culling_2_5d_info, make_culling_2_5d},
     {clustered_samples_info, make_clustered_samples},
     {z_bins_info, make_z_bins},
+    {light_linked_list_info, make_light_linked_list},
+    {light_volumes_info, make_light_volumes},
 };
 
 } // namespace
