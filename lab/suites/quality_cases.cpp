@@ -87,13 +87,16 @@ void add_rivals(std::vector<TechniqueChoice>& choices, bool is_overlap) {
         place = choices.insert(place + 1, {"clustered", options});
 }
 
-// Brute force tests every light for every point: its figures are the number of lights, and it would take days.
+// Brute force tests every light for every point: its figures are the number of lights, and it would take days. Light
+// volumes are drawn in one submission, which is for some thousand lights: those who name them choose how many.
+bool runs_by_default(const TechniqueInfo& info) { return info.name != "brute_force" && info.name != "light_volumes"; }
+
 std::vector<TechniqueChoice> techniques_of(const SuiteOptions& options) {
     std::vector<TechniqueChoice> choices;
     for (const TechniqueInfo& info : technique_infos()) {
         const bool named =
             std::find(options.techniques.begin(), options.techniques.end(), info.name) != options.techniques.end();
-        if (named || (options.techniques.empty() && info.name != "brute_force"))
+        if (named || (options.techniques.empty() && runs_by_default(info)))
             choices.push_back({info.name, options_of(info.name)});
     }
     return choices;

@@ -15,8 +15,8 @@ VIEW = ["--detail", "low", "--size", "64x36"]
 SMALL_BENCH = ["bench", "quality", "--scenes", "bars", *VIEW, "--out", "out"]
 TINY = [*SMALL_BENCH, "--views", "path", "--lights", "300,600"]
 TECHNIQUES = ["exact", "clustered", "tiled_light_trees", "hybrid_light_trees", "depth_windows", "depth_windows_wave",
-              "tiled", "culling_2_5d", "clustered_samples", "z_bins"]
-BUILT_ON_DEVICE = ["tiled", "culling_2_5d", "clustered_samples", "z_bins"]  # so there are no stages on the CPU
+              "tiled", "culling_2_5d", "clustered_samples", "z_bins", "light_linked_list"]
+BUILT_ON_DEVICE = ["tiled", "culling_2_5d", "clustered_samples", "z_bins", "light_linked_list"]  # so there are no stages on the CPU
 TIMES = ("build_ms", "cold_build_ms", "stages_ms", "shade_ms", "shade_over_exact")
 
 

@@ -190,6 +190,7 @@ TEST_F(LightVolumesTest, log_what_they_record) {
     view.positions = {{camera_basis(view.camera, 1, 1).forward * 20.0f, 20.0f}};
     view.points.positions().upload(view.positions);
     const View large = made_view(device(), 48, 33, 1000);
+    const WaveSummary exact = exact_waves(large);
     for (const OptionValues& values : options()) {
         const std::unique_ptr<Technique> technique = prepared(values, view);
         const PixelRecord record = technique->record(view.frame()).front();

@@ -56,6 +56,12 @@ constexpr PinnedWork kPinnedWork[] = {
     {"canyon", "culling_2_5d", {109702, 486, 109702, 4096, 2060, 8408, 2060, 510, 12, 0}},
     {"canyon", "culling_2_5d", {24214, 972, 109702, 4096, 2060, 16688, 2060, 510, 24, 2060}, "variant=b"},
     {"canyon", "culling_2_5d", {24214, 972, 24214, 4096, 3425, 16884, 2060, 510, 81, 0}, "variant=c"},
+    {"canyon", "light_linked_list", {15943, 486, 216386, 4096, 4169, 50092, 1670, 510, 12, 4169}},
+    {"canyon",
+     "light_linked_list",
+     {5754, 486, 49507, 4096, 55252, 886156, 731, 510, 171, 49507},
+     "resolution=full link_bytes=16"},
+    {"canyon", "light_volumes", {69131, 0, 0, 4096, 0, 147456, 6316, 510, 0, 0}, "volume=rectangle"},
     {"citadel", "brute_force", {1110016, 0, 0, 4096, 0, 0, 40960, 336, 0, 0}},
     {"citadel", "exact", {2221, 0, 2221, 191, 2221, 13100, 336, 336, 0, 0}},
     {"citadel", "clustered", {12570, 271, 12570, 3195, 12656, 52292, 1835, 336, 33, 0}},
@@ -74,6 +80,12 @@ constexpr PinnedWork kPinnedWork[] = {
     {"citadel", "culling_2_5d", {44237, 271, 44237, 3195, 866, 3632, 866, 336, 10, 0}},
     {"citadel", "culling_2_5d", {6616, 542, 44237, 3195, 866, 7136, 866, 336, 20, 866}, "variant=b"},
     {"citadel", "culling_2_5d", {6616, 542, 6616, 3195, 1975, 11084, 866, 336, 61, 0}, "variant=c"},
+    {"citadel", "light_linked_list", {5517, 271, 238531, 3195, 7643, 91780, 813, 336, 10, 5694}},
+    {"citadel",
+     "light_linked_list",
+     {3248, 271, 7191, 3195, 38991, 625980, 503, 336, 97, 7191},
+     "resolution=full link_bytes=16"},
+    {"citadel", "light_volumes", {23761, 0, 0, 3195, 0, 115020, 4312, 336, 0, 0}, "volume=rectangle"},
     {"bars", "brute_force", {2093056, 0, 0, 4096, 0, 0, 49152, 701, 0, 0}},
     {"bars", "exact", {3966, 0, 3966, 391, 3966, 20080, 701, 701, 0, 0}},
     {"bars", "clustered", {37737, 511, 37737, 3250, 12893, 53240, 4346, 701, 74, 0}},
@@ -92,6 +104,12 @@ constexpr PinnedWork kPinnedWork[] = {
     {"bars", "culling_2_5d", {158156, 511, 158156, 3250, 2748, 11160, 2748, 701, 12, 0}},
     {"bars", "culling_2_5d", {20288, 1022, 158156, 3250, 2748, 22192, 2748, 701, 24, 2748}, "variant=b"},
     {"bars", "culling_2_5d", {20288, 1022, 20288, 3250, 5083, 23516, 2748, 701, 96, 0}, "variant=c"},
+    {"bars", "light_linked_list", {15740, 511, 299549, 3250, 5100, 61264, 2346, 701, 12, 5100}},
+    {"bars",
+     "light_linked_list",
+     {6145, 511, 18835, 3250, 20344, 327628, 1054, 701, 178, 18835},
+     "resolution=full link_bytes=16"},
+    {"bars", "light_volumes", {60619, 0, 0, 3250, 0, 117000, 6322, 701, 0, 0}, "volume=rectangle"},
     {"cornell", "brute_force", {1183744, 0, 0, 4096, 0, 0, 36864, 1333, 0, 0}},
     {"cornell", "exact", {1749, 0, 1749, 1284, 1749, 11212, 1333, 1333, 0, 0}},
     {"cornell", "clustered", {87758, 289, 87758, 4096, 7944, 33444, 5056, 1333, 24, 0}},
@@ -110,6 +128,12 @@ constexpr PinnedWork kPinnedWork[] = {
     {"cornell", "culling_2_5d", {204722, 289, 204722, 4096, 3367, 13636, 3367, 1333, 9, 0}},
     {"cornell", "culling_2_5d", {41182, 578, 204722, 4096, 3367, 27144, 3367, 1333, 18, 3367}, "variant=b"},
     {"cornell", "culling_2_5d", {41182, 578, 41182, 4096, 5093, 23556, 3367, 1333, 44, 0}, "variant=c"},
+    {"cornell", "light_linked_list", {35196, 289, 303776, 4096, 5236, 62896, 3056, 1333, 9, 5100}},
+    {"cornell",
+     "light_linked_list",
+     {5079, 289, 11341, 4096, 12160, 196684, 2135, 1333, 109, 11341},
+     "resolution=full link_bytes=16"},
+    {"cornell", "light_volumes", {20230, 0, 0, 4096, 0, 147456, 5216, 1333, 0, 0}, "volume=rectangle"},
 };
 
 class PinnedWorkTest : public TechniquesTest, public testing::WithParamInterface<PinnedWork> {};
@@ -144,6 +168,7 @@ OptionValues options_of(const PinnedWork& pinned) {
     const std::string name = pinned.technique;
     if (name == "brute_force" || name == "exact") return {};
     OptionValues options{{"tile_size", "8"}};
+    if (name == "light_linked_list" || name == "light_volumes") options.clear(); // no tiles
     std::istringstream words(pinned.set);
     for (std::string word; words >> word;) {
         const std::size_t sign = word.find('=');

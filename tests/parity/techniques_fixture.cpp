@@ -126,9 +126,8 @@ std::vector<Variant> all_variants() {
          {"light_linked_list_quarter", "light_linked_list", {{"resolution", "quarter"}, {"link_bytes", "12"}}},
          {"light_linked_list_air", "light_linked_list", {{"depth_test", "off"}, {"first_links", "0"}}},
          {"light_volumes", "light_volumes", {}},
-         {"light_volumes_front", "light_volumes", {{"volume", "front"}, {"mesh_level", "2"}}},
+         {"light_volumes_front", "light_volumes", {{"volume", "front"}, {"mesh_level", "0"}}},
          {"light_volumes_all", "light_volumes", {{"volume", "all"}, {"mesh_level", "0"}, {"order", "near"}}},
-         {"light_volumes_fine", "light_volumes", {{"volume", "back"}, {"mesh_level", "3"}, {"order", "near"}}},
          {"light_volumes_rectangle", "light_volumes", {{"volume", "rectangle"}}}});
     variants.push_back({"tiled", "tiled", {}});
     variants.push_back({"tiled_max_planes", "tiled", {{"depth", "max"}, {"test", "planes"}, {"tile_size", "13"}}});

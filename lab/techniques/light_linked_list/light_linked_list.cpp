@@ -36,7 +36,9 @@ constexpr std::uint32_t kLogCode[] =
 #include "light_linked_list_log.comp.inc"
     ;
 
-constexpr std::uint32_t kStructureBuffers = 4, kBuildBuffers = 5;
+// The pool is so many buffers, of as many links each: light_links.glsl.
+constexpr std::uint32_t kPages = 8, kPageLinks = 1u << 23, kMostLinks = kPages * kPageLinks;
+constexpr std::uint32_t kStructureBuffers = 3 + kPages, kBuildBuffers = 4 + kPages;
 constexpr std::uint32_t kRectangleVertices = 6;
 constexpr std::uint32_t kNoLink = 0xFFFFFFFF;
 constexpr std::uint64_t kWord = sizeof(std::uint32_t);
@@ -44,7 +46,6 @@ constexpr std::uint64_t kWord = sizeof(std::uint32_t);
 // Of links of two words: the rank of a light has 8 bits, and the next link 24, of which one code means none.
 constexpr std::uint32_t kShortWords = 2, kWideWords = 3;
 constexpr std::uint32_t kMostShortLights = 256, kMostShortLinks = 0xFFFFFF;
-constexpr std::uint32_t kMostLinks = 0x80000000; // of light_linked_list.frag
 
 // In the order of the shaders.
 constexpr const char* kLossy[] = {"off", "centre", "coverage", "rounding"};
@@ -110,8 +111,10 @@ class LightLinkedList : public PassTechnique {
           depth_pipeline_(
               device, {"light_linked_list, depths", kDepthCode, 2, sizeof(DepthPush), {options.lossy == kByCentre}}),
           links_pipeline_(device, links_shader(options), {}), farthest_(device, "farthest depths of texels"),
-          counter_(device, "links, their number"), heads_(device, "first links of texels"), pool_(device, "links"),
-          header_(device, "light_linked_list") {}
+          counter_(device, "links, their number"), heads_(device, "first links of texels"),
+          header_(device, "light_linked_list") {
+        for (std::uint32_t i = 0; i < kPages; ++i) pages_.emplace_back(device, "links");
+    }
 
     std::optional<double> references_in_range(const Frame& frame) override {
         return summarize(record(frame)).tested_mean;
@@ -120,11 +123,14 @@ class LightLinkedList : public PassTechnique {
   protected:
     void build(const Frame& frame) override;
     std::vector<const gpu::Buffer*> structure() const override {
-        return {&header_.buffer(), &heads_.buffer(), &pool_.buffer(), &visible_.lights()};
+        std::vector<const gpu::Buffer*> buffers{&header_.buffer(), &heads_.buffer(), &visible_.lights()};
+        for (const FittedBuffer& page : pages_) buffers.push_back(&page.buffer());
+        return buffers;
     }
 
   private:
     void fit(const Frame& frame);
+    void fit_pool();
     void make_room(std::uint64_t links);
     std::uint64_t capacity() const;
     double find_depths(const Frame& frame);
@@ -139,10 +145,11 @@ class LightLinkedList : public PassTechnique {
     VisibleLights visible_;
     gpu::ComputePipeline depth_pipeline_;
     gpu::RasterPipeline links_pipeline_;
-    FittedBuffer farthest_, counter_, heads_, pool_, header_;
+    FittedBuffer farthest_, counter_, heads_, header_;
+    std::vector<FittedBuffer> pages_;
     TileGrid grid_{};
     std::uint32_t link_words_ = 0;
-    std::uint64_t pool_bytes_ = 0;
+    std::uint64_t pool_links_ = 0; ///< never fewer than in an earlier frame
 };
 
 // What does not fit is counted all the same, so a second drawing has room for everything.
@@ -169,26 +176,31 @@ void LightLinkedList::fit(const Frame& frame) {
     heads_.fit(grid_.tile_count() * kWord);
     counter_.fit(kWord);
     header_.fit(sizeof(Header));
-    const std::uint64_t first_bytes = std::uint64_t{options_.first_links} * grid_.tile_count() * link_bytes();
-    pool_bytes_ = std::max(pool_bytes_, std::min(first_bytes, device().info().max_storage_buffer_range));
-    pool_.fit(pool_bytes_);
+    const std::uint64_t first_links = std::uint64_t{options_.first_links} * grid_.tile_count();
+    pool_links_ = std::max<std::uint64_t>(pool_links_, std::min<std::uint64_t>(first_links, kMostLinks));
+    fit_pool();
+}
+
+void LightLinkedList::fit_pool() {
+    std::uint64_t rest = pool_links_;
+    for (FittedBuffer& page : pages_) {
+        const std::uint64_t links = std::min<std::uint64_t>(rest, kPageLinks);
+        page.fit(links * link_bytes());
+        rest -= links;
+    }
 }
 
 void LightLinkedList::make_room(std::uint64_t links) {
+    if (links > kMostLinks)
+        throw InputError(fmt::format("light_linked_list: {} links; the most is {}: resolution=eighth needs the fewest",
+                                     links, kMostLinks));
     if (link_words_ == kShortWords && links > kMostShortLinks) link_words_ = kWideWords;
-    pool_bytes_ = links * link_bytes();
-    const std::uint64_t most = device().info().max_storage_buffer_range;
-    if (links >= kMostLinks || pool_bytes_ > most)
-        throw InputError(
-            fmt::format("light_linked_list: {} links of {} bytes; a buffer of the device {} has at most {} "
-                        "bytes: resolution=eighth needs the fewest",
-                        links, link_bytes(), device().info().name, most));
-    pool_.fit(pool_bytes_);
+    pool_links_ = std::max(pool_links_, links);
+    fit_pool();
 }
 
 std::uint64_t LightLinkedList::capacity() const {
-    return std::min<std::uint64_t>(pool_bytes_ / link_bytes(),
-                                   link_words_ == kShortWords ? kMostShortLinks : kMostLinks - 1);
+    return link_words_ == kShortWords ? std::min<std::uint64_t>(pool_links_, kMostShortLinks) : pool_links_;
 }
 
 double LightLinkedList::find_depths(const Frame& frame) {
@@ -203,6 +215,9 @@ double LightLinkedList::find_depths(const Frame& frame) {
 }
 
 double LightLinkedList::draw(const DeviceView& view) {
+    std::vector<gpu::Binding> buffers{
+        {visible_.lights()}, {farthest_.buffer()}, {counter_.buffer()}, {heads_.buffer()}};
+    for (const FittedBuffer& page : pages_) buffers.push_back({page.buffer()});
     const LinksPush push{view, grid_, link_words_, static_cast<std::uint32_t>(capacity())};
     gpu::Commands commands(device());
     const std::uint32_t start = commands.timestamp();
@@ -210,11 +225,7 @@ double LightLinkedList::draw(const DeviceView& view) {
     commands.fill(heads_.buffer(), kNoLink);
     commands.barrier();
     commands.begin_drawing({grid_.tiles_x, grid_.tiles_y});
-    if (visible_.count() != 0)
-        commands.draw(
-            links_pipeline_,
-            {{visible_.lights()}, {farthest_.buffer()}, {counter_.buffer()}, {heads_.buffer()}, {pool_.buffer()}}, push,
-            {kRectangleVertices, visible_.count()});
+    if (visible_.count() != 0) commands.draw(links_pipeline_, buffers, push, {kRectangleVertices, visible_.count()});
     commands.end_drawing();
     const std::uint32_t end = commands.timestamp();
     commands.submit_and_wait("linked lists of lights");

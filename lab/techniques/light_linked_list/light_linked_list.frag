@@ -3,6 +3,8 @@
 // beyond the pool is counted and not written.
 #extension GL_GOOGLE_include_directive : require
 #include "lab/techniques/light_linked_list/light_links_build.glsl"
+#define POOL_BINDING 4
+#define POOL_ACCESS writeonly
 #include "lab/techniques/light_linked_list/light_links.glsl"
 
 layout(location = 0) flat in uint rank;
@@ -13,7 +15,6 @@ const uint kByCentre = 1u, kByCoverage = 2u, kByRounding = 3u;
 layout(std430, set = 0, binding = 1) readonly buffer Farthest { float d[]; } farthest;
 layout(std430, set = 0, binding = 2) buffer Counter { uint links; } counter;
 layout(std430, set = 0, binding = 3) buffer Heads { uint d[]; } heads;
-layout(std430, set = 0, binding = 4) writeonly buffer Pool { uint d[]; } pool;
 
 // From here on links are no longer counted, far from where their number would begin again at 0.
 const uint kMostLinks = 0x80000000u;
@@ -45,21 +46,32 @@ uint halves_of(DepthSpan span) {
     return half_below(span.low) << 16u | half_above(span.high);
 }
 
+void write_word(uint page, uint at, uint word) {
+    if (page == 0u) pool0.d[at] = word;
+    else if (page == 1u) pool1.d[at] = word;
+    else if (page == 2u) pool2.d[at] = word;
+    else if (page == 3u) pool3.d[at] = word;
+    else if (page == 4u) pool4.d[at] = word;
+    else if (page == 5u) pool5.d[at] = word;
+    else if (page == 6u) pool6.d[at] = word;
+    else pool7.d[at] = word;
+}
+
 void write_link(uint link, DepthSpan span, uint next) {
-    uint at = link * link_words;
+    uint page = link >> kPageBits, at = first_word(link, link_words);
     if (link_words == 2u) {
-        pool.d[at] = halves_of(span);
-        pool.d[at + 1u] = rank << 24u | (next & kNoShortLink);
+        write_word(page, at, halves_of(span));
+        write_word(page, at + 1u, rank << 24u | (next & kNoShortLink));
         return;
     }
     if (link_words == 3u) {
-        pool.d[at] = halves_of(span);
+        write_word(page, at, halves_of(span));
     } else {
-        pool.d[at] = floatBitsToUint(span.low);
-        pool.d[at + 1u] = floatBitsToUint(span.high);
+        write_word(page, at, floatBitsToUint(span.low));
+        write_word(page, at + 1u, floatBitsToUint(span.high));
     }
-    pool.d[at + link_words - 2u] = lights.d[rank].index;
-    pool.d[at + link_words - 1u] = next;
+    write_word(page, at + link_words - 2u, lights.d[rank].index);
+    write_word(page, at + link_words - 1u, next);
 }
 
 void main() {

@@ -1,6 +1,8 @@
 // Shading by linked lists: the links of the pixel's texel, and of these the lights whose depths hold the point's.
 #include "lab/techniques/device/tile_grid.glsl"
 #include "lab/techniques/device/visible_light.glsl"
+#define POOL_BINDING 9
+#define POOL_ACCESS readonly
 #include "lab/techniques/light_linked_list/light_links.glsl"
 #include "lab/techniques/shading_pass.glsl"
 
@@ -11,9 +13,7 @@ layout(std430, set = 0, binding = 6) readonly buffer Header {
 header;
 layout(std430, set = 0, binding = 7) readonly buffer Heads { uint d[]; }
 heads;
-layout(std430, set = 0, binding = 8) readonly buffer Pool { uint d[]; }
-pool;
-layout(std430, set = 0, binding = 9) readonly buffer Lights { VisibleLight d[]; }
+layout(std430, set = 0, binding = 8) readonly buffer Lights { VisibleLight d[]; }
 lights; // by rank
 
 struct Link {
@@ -21,26 +21,42 @@ struct Link {
     uint light, next;
 };
 
-Link read_link(uint link) {
-    uint at = link * header.link_words;
-    Link read;
+uint read_word(uint page, uint at) {
+    if (page == 0u) return pool0.d[at];
+    if (page == 1u) return pool1.d[at];
+    if (page == 2u) return pool2.d[at];
+    if (page == 3u) return pool3.d[at];
+    if (page == 4u) return pool4.d[at];
+    if (page == 5u) return pool5.d[at];
+    if (page == 6u) return pool6.d[at];
+    return pool7.d[at];
+}
+
+void read_depths(inout Link link, uint page, uint at) {
+    uint word = read_word(page, at);
     if (header.link_words == 4u) {
-        read.low = uintBitsToFloat(pool.d[at]);
-        read.high = uintBitsToFloat(pool.d[at + 1u]);
+        link.low = uintBitsToFloat(word);
+        link.high = uintBitsToFloat(read_word(page, at + 1u));
     } else {
-        read.low = depth_of_half(pool.d[at] >> 16u);
-        read.high = depth_of_half(pool.d[at] & 0xFFFFu);
+        link.low = depth_of_half(word >> 16u);
+        link.high = depth_of_half(word & 0xFFFFu);
     }
-    uint last = pool.d[at + header.link_words - 1u];
+}
+
+Link read_link(uint number) {
+    uint page = number >> kPageBits, at = first_word(number, header.link_words);
+    Link link;
+    read_depths(link, page, at);
+    uint last = read_word(page, at + header.link_words - 1u);
     if (header.link_words == 2u) {
-        read.light = lights.d[last >> 24u].index;
-        read.next = last & kNoShortLink;
-        if (read.next == kNoShortLink) read.next = kNoLink;
+        link.light = lights.d[last >> 24u].index;
+        link.next = last & kNoShortLink;
+        if (link.next == kNoShortLink) link.next = kNoLink;
     } else {
-        read.light = pool.d[at + header.link_words - 2u];
-        read.next = last;
+        link.light = read_word(page, at + header.link_words - 2u);
+        link.next = last;
     }
-    return read;
+    return link;
 }
 
 void test_light(inout Pixel pixel, uint light) {

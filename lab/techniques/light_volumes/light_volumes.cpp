@@ -200,7 +200,8 @@ void LightVolumes::build(const Frame& frame) {
     if (options_.compares_depths()) milliseconds += draw_depths(frame);
     stats_.build_ms.push_back(milliseconds);
     stats_.visible_lights = visible_.count();
-    stats_.structure_bytes = corners_.bytes() + visible_.count() * (sizeof(VisibleLight) + sizeof(std::uint32_t));
+    const std::uint64_t mesh_bytes = options_.volume == Volume::rectangle ? 0 : corners_.bytes();
+    stats_.structure_bytes = mesh_bytes + visible_.count() * (sizeof(VisibleLight) + sizeof(std::uint32_t));
 }
 
 // The keys' shader numbers the lights in the order of their indices.
