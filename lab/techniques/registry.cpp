@@ -11,6 +11,8 @@
 #include "lab/techniques/hybrid_light_trees/hybrid_light_trees.h"
 #include "lab/techniques/hybrid_lighting/hybrid_lighting.h"
 #include "lab/techniques/octree/octree.h"
+#include "lab/techniques/light_linked_list/light_linked_list.h"
+#include "lab/techniques/light_volumes/light_volumes.h"
 #include "lab/techniques/tiled/tiled.h"
 #include "lab/techniques/tiled_light_trees/tiled_light_trees.h"
 #include "lab/techniques/z_bins/z_bins.h"
@@ -38,6 +40,8 @@ constexpr Entry kTechniques[] = {
     {z_bins_info, make_z_bins},
     {octree_info, make_octree},
     {hybrid_lighting_info, make_hybrid_lighting},
+    {light_linked_list_info, make_light_linked_list},
+    {light_volumes_info, make_light_volumes},
 };
 
 } // namespace

@@ -1,53 +1,19 @@
-// What the shading of a pixel has in common in every technique: the point, the common terms, the lights' contributions,
-// the output. With MANYLIGHTS_RECORD the output is a PixelRecord, with MANYLIGHTS_LOG it is the words of touch_log.glsl
-// for sampled blocks of pixels, else three floats.
-//
-// A technique says what it touches: touch_light before it tests a light, touch_node and touch_check where it reads a
-// node or compares a reference, touch_batch where a wave culls together. Nothing but the log form looks at it.
+// What the shading of a pixel in a compute shader has in common in every technique: which pixel it is, and the output.
+// With MANYLIGHTS_RECORD that is a PixelRecord, with MANYLIGHTS_LOG it is the words of touch_log.glsl for sampled blocks
+// of pixels, else three floats.
 #ifndef MANYLIGHTS_LAB_SHADING_PASS_GLSL
 #define MANYLIGHTS_LAB_SHADING_PASS_GLSL
 
-#include <manylights/format.h>
-
-#include "lab/renderer/shading.glsl"
-
-#if defined(MANYLIGHTS_RECORD)
-#include "lab/techniques/record.glsl"
-#endif
-#if defined(MANYLIGHTS_LOG)
-#include "lab/techniques/touch_log.glsl"
-#else
-void touch_light(uint light) {}
-void touch_node(uint unit) {}
-void touch_check(uint reference) {}
-void touch_batch(uint batch) {}
-#endif
+#include "lab/techniques/shaded_pixel.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-struct PointNormal {
-    vec3 normal;
-    uint material;
-};
-
-layout(std430, set = 0, binding = 0) readonly buffer Positions { vec4 d[]; }
-positions;
-layout(std430, set = 0, binding = 3) readonly buffer Spheres { vec4 d[]; }
-spheres;
-#if !defined(MANYLIGHTS_LOG) // which has buffers of its own in these places
-layout(std430, set = 0, binding = 1) readonly buffer Normals { PointNormal d[]; }
-normals;
-layout(std430, set = 0, binding = 2) readonly buffer Materials { MaterialRecord d[]; }
-materials;
-layout(std430, set = 0, binding = 4) readonly buffer Colors { vec4 d[]; }
-colors;
 #if defined(MANYLIGHTS_RECORD)
 layout(std430, set = 0, binding = 5) buffer Records { PixelRecord d[]; }
 records;
-#else
+#elif !defined(MANYLIGHTS_LOG)
 layout(std430, set = 0, binding = 5) buffer Radiance { float d[]; }
 radiances;
-#endif
 #endif
 
 // Rows [first_row, first_row + row_count) of the image; the output starts at the first of them. A dispatch whose first
@@ -59,32 +25,6 @@ layout(push_constant) uniform Push {
     uint first_block; // of the log form: the sampled block of workgroup 0
 }
 push;
-
-struct Pixel {
-    bool is_inside; // of the image
-    bool is_shaded; // inside, and not sky
-    uvec2 coordinates;
-    uint output_index;
-    float depth;
-    Surface surface;
-#if defined(MANYLIGHTS_RECORD)
-    PixelRecord record;
-#elif !defined(MANYLIGHTS_LOG)
-    vec3 radiance;
-#endif
-};
-
-// The log form asks where a surface is, and nothing else of it.
-Surface load_surface(uint index, vec3 position) {
-#if defined(MANYLIGHTS_LOG)
-    Surface surface;
-    surface.position = position;
-    return surface;
-#else
-    PointNormal stored = normals.d[index];
-    return make_surface(position, stored.normal, materials.d[stored.material]);
-#endif
-}
 
 // is_first: nothing is in the output yet.
 void begin_output(inout Pixel pixel, bool is_first) {
@@ -130,31 +70,10 @@ Pixel begin_pixel(bool is_first) {
     Pixel pixel;
     place_pixel(pixel);
     uint index = pixel.is_inside ? pixel.coordinates.y * push.width + pixel.coordinates.x : 0u;
-    vec4 position = positions.d[index];
-    pixel.depth = position.w;
-    pixel.is_shaded = pixel.is_inside && position.w > 0.0;
-    if (pixel.is_shaded) pixel.surface = load_surface(index, position.xyz);
+    load_point(pixel, index);
     begin_output(pixel, is_first);
     return pixel;
 }
-
-#if defined(MANYLIGHTS_LOG)
-void shade_light(inout Pixel pixel, uint light, vec4 sphere) { touch(kTouchAffecting, light); }
-#else
-// A light that affects the pixel's point. N.L > 0 is decided with the stored normal and the direction as it is, summed in
-// this order, so that every processor decides alike.
-void shade_light(inout Pixel pixel, uint light, vec4 sphere) {
-    vec3 radiance = light_radiance(pixel.surface, sphere.xyz, sphere.w, colors.d[light].rgb);
-#if defined(MANYLIGHTS_RECORD)
-    precise vec3 to_light = sphere.xyz - pixel.surface.position;
-    vec3 normal = pixel.surface.normal;
-    precise float cosine = normal.x * to_light.x + normal.y * to_light.y + normal.z * to_light.z;
-    add_light(pixel.record, light, cosine > 0.0, radiance);
-#else
-    pixel.radiance += radiance;
-#endif
-}
-#endif
 
 void end_pixel(Pixel pixel) {
     if (!pixel.is_inside) return;

@@ -16,18 +16,17 @@ struct LaneRange {
 
 class TouchLog {
   public:
-    TouchLog(gpu::Device& device, const gpu::ComputePipeline& pipeline, const TouchLogInput& input)
-        : device_(device), pipeline_(pipeline), input_(input),
-          blocks_(sampled_blocks(input.frame.width, input.frame.height)),
+    TouchLog(gpu::Device& device, const std::string& name, const Frame& frame, const LogRun& run)
+        : device_(device), name_(name), run_(run), blocks_(sampled_blocks(frame.width, frame.height)),
           block_buffer_(device, "log blocks", std::span<const std::uint32_t>(blocks_)),
           place_buffer_(device, "log places", lane_count() * sizeof(std::uint32_t)),
           end_buffer_(device, "log ends", lane_count() * sizeof(std::uint32_t)) {}
 
-    WaveSummary run() {
+    WaveSummary find(std::uint64_t tested_by_all, std::uint64_t log_bytes) {
         const std::vector<std::uint32_t> counts = count();
-        WaveUnions unions(input_.tested_by_all);
+        WaveUnions unions(tested_by_all);
         for (std::size_t lane = 0; lane < counts.size();) {
-            const LaneRange lanes = next_group(counts, lane);
+            const LaneRange lanes = next_group(counts, lane, log_bytes / sizeof(MlUint));
             fill(counts, lanes, unions);
             lane = lanes.end;
         }
@@ -36,29 +35,20 @@ class TouchLog {
 
   private:
     std::size_t lane_count() const { return blocks_.size() * kBlockLanes; }
-    std::uint32_t first_row(std::size_t block) const;
-    bool meets(const PassBand& band, std::size_t block) const;
     std::vector<std::uint32_t> count();
-    LaneRange next_group(const std::vector<std::uint32_t>& counts, std::size_t first) const;
+    static LaneRange next_group(const std::vector<std::uint32_t>& counts, std::size_t first, std::uint64_t most);
     void fill(const std::vector<std::uint32_t>& counts, LaneRange lanes, WaveUnions& unions);
-    void dispatch(LaneRange lanes, const gpu::Buffer& words);
-    void dispatch_band(const PassBand& band, std::uint32_t first_block, std::uint32_t block_count,
-                       const gpu::Buffer& words);
+    void dispatch(LaneRange lanes, const gpu::Buffer& words) const {
+        run_({block_buffer_, place_buffer_, end_buffer_, words}, lanes.first / kBlockLanes,
+             (lanes.end + kBlockLanes - 1) / kBlockLanes);
+    }
 
     gpu::Device& device_;
-    const gpu::ComputePipeline& pipeline_;
-    const TouchLogInput& input_;
+    const std::string& name_;
+    const LogRun& run_;
     std::vector<std::uint32_t> blocks_;
     gpu::Buffer block_buffer_, place_buffer_, end_buffer_;
 };
-
-std::uint32_t TouchLog::first_row(std::size_t block) const {
-    return blocks_[block] / gpu::group_count(input_.frame.width, kBlockEdge) * kBlockEdge;
-}
-
-bool TouchLog::meets(const PassBand& band, std::size_t block) const {
-    return first_row(block) < band.first_row + band.row_count && first_row(block) + kBlockEdge > band.first_row;
-}
 
 // The ends stay at 0, so that nothing is written.
 std::vector<std::uint32_t> TouchLog::count() {
@@ -68,8 +58,7 @@ std::vector<std::uint32_t> TouchLog::count() {
     return place_buffer_.download<std::uint32_t>();
 }
 
-LaneRange TouchLog::next_group(const std::vector<std::uint32_t>& counts, std::size_t first) const {
-    const std::uint64_t most = input_.log_bytes / sizeof(MlUint);
+LaneRange TouchLog::next_group(const std::vector<std::uint32_t>& counts, std::size_t first, std::uint64_t most) {
     std::size_t end = first;
     std::uint64_t words = 0;
     while (end < counts.size() && (end == first || words + counts[end] <= most)) words += counts[end++];
@@ -94,27 +83,58 @@ void TouchLog::fill(const std::vector<std::uint32_t>& counts, LaneRange lanes, W
     const auto log = words.download<MlUint>();
     for (std::size_t lane = lanes.first; lane < lanes.end; ++lane) {
         if (reached[lane] != ends[lane])
-            throw DeviceError(pipeline_.name() + ": a pixel touched " + std::to_string(reached[lane] - places[lane]) +
+            throw DeviceError(name_ + ": a pixel touched " + std::to_string(reached[lane] - places[lane]) +
                               " things, and " + std::to_string(counts[lane]) + " when they were counted");
         unions.add(lane, std::span(log).subspan(places[lane], counts[lane]));
     }
 }
 
-void TouchLog::dispatch(LaneRange lanes, const gpu::Buffer& words) {
+/// Dispatches of a shader of shading_pass.glsl, band by band.
+class BandRuns {
+  public:
+    BandRuns(gpu::Device& device, const gpu::ComputePipeline& pipeline, const TouchLogInput& input)
+        : device_(device), pipeline_(pipeline), input_(input),
+          blocks_(sampled_blocks(input.frame.width, input.frame.height)) {}
+
+    void operator()(const LogBuffers& buffers, std::size_t first, std::size_t end) const;
+
+  private:
+    std::uint32_t first_row(std::size_t block) const;
+    bool meets(const PassBand& band, std::size_t block) const;
+    void dispatch(const PassBand& band, std::uint32_t first_block, std::uint32_t block_count,
+                  const LogBuffers& buffers) const;
+
+    gpu::Device& device_;
+    const gpu::ComputePipeline& pipeline_;
+    const TouchLogInput& input_;
+    std::vector<std::uint32_t> blocks_;
+};
+
+std::uint32_t BandRuns::first_row(std::size_t block) const {
+    return blocks_[block] / gpu::group_count(input_.frame.width, kBlockEdge) * kBlockEdge;
+}
+
+bool BandRuns::meets(const PassBand& band, std::size_t block) const {
+    return first_row(block) < band.first_row + band.row_count && first_row(block) + kBlockEdge > band.first_row;
+}
+
+void BandRuns::operator()(const LogBuffers& buffers, std::size_t first, std::size_t end) const {
     for (const PassBand& band : input_.bands) {
-        std::size_t first = lanes.first / kBlockLanes;
-        std::size_t end = (lanes.end + kBlockLanes - 1) / kBlockLanes;
-        while (first < end && !meets(band, first)) ++first; // blocks come row by row
-        while (first < end && !meets(band, end - 1)) --end;
-        if (first < end)
-            dispatch_band(band, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end - first), words);
+        std::size_t from = first, to = end;
+        while (from < to && !meets(band, from)) ++from; // blocks come row by row
+        while (from < to && !meets(band, to - 1)) --to;
+        if (from < to) dispatch(band, static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to - from), buffers);
     }
 }
 
-void TouchLog::dispatch_band(const PassBand& band, std::uint32_t first_block, std::uint32_t block_count,
-                             const gpu::Buffer& words) {
-    std::vector<gpu::Binding> bindings{
-        {input_.frame.points.positions()}, {block_buffer_}, {place_buffer_}, {input_.spheres}, {end_buffer_}, {words}};
+void BandRuns::dispatch(const PassBand& band, std::uint32_t first_block, std::uint32_t block_count,
+                        const LogBuffers& buffers) const {
+    std::vector<gpu::Binding> bindings{{input_.frame.points.positions()},
+                                       {buffers.blocks},
+                                       {buffers.places},
+                                       {input_.spheres},
+                                       {buffers.ends},
+                                       {buffers.words}};
     for (const gpu::Buffer* buffer : band.structure) bindings.push_back({*buffer});
     const std::uint64_t pixels = std::uint64_t{block_count} * kBlockLanes;
     for (const LightRange lights : light_ranges(input_.split, input_.light_count, pixels)) {
@@ -128,8 +148,14 @@ void TouchLog::dispatch_band(const PassBand& band, std::uint32_t first_block, st
 
 } // namespace
 
+WaveSummary find_waves(gpu::Device& device, const std::string& name, const Frame& frame, const LogRun& run,
+                       std::uint64_t tested_by_all, std::uint64_t log_bytes) {
+    return TouchLog(device, name, frame, run).find(tested_by_all, log_bytes);
+}
+
 WaveSummary find_waves(gpu::Device& device, const gpu::ComputePipeline& pipeline, const TouchLogInput& input) {
-    return TouchLog(device, pipeline, input).run();
+    return find_waves(device, pipeline.name(), input.frame, BandRuns(device, pipeline, input), input.tested_by_all,
+                      input.log_bytes);
 }
 
 } // namespace manylights::lab

@@ -9,7 +9,8 @@ import unittest
 from harness import SMALL, CommandTest
 
 CELLS = ("clustered", "tiled_light_trees", "hybrid_light_trees", "depth_windows", "depth_windows_wave")
-DEVICE_BUILT = ("tiled", "culling_2_5d", "clustered_samples", "z_bins", "hybrid_lighting", "octree")
+DEVICE_BUILT = ("tiled", "culling_2_5d", "clustered_samples", "z_bins", "hybrid_lighting", "octree", "light_linked_list",
+                "light_volumes")
 
 
 def png_size(path):

@@ -62,6 +62,12 @@ constexpr PinnedWork kPinnedWork[] = {
      {24296, 486, 24296, 4096, 15150, 127880, 2382, 510, 57, 0},
      "tiles=4x3 lists=linked division=view_uniform"},
     {"canyon", "tiled", {52305, 486, 52305, 4096, 2194, 8964, 4085, 510, 36, 0}, "tiles=5x4"},
+    {"canyon", "light_linked_list", {15943, 486, 216386, 4096, 4169, 50092, 1670, 510, 12, 4169}},
+    {"canyon",
+     "light_linked_list",
+     {5754, 486, 49507, 4096, 55252, 886156, 731, 510, 171, 49507},
+     "resolution=full link_bytes=16"},
+    {"canyon", "light_volumes", {69131, 0, 0, 4096, 0, 147456, 6316, 510, 0, 0}, "volume=rectangle"},
     {"citadel", "brute_force", {1110016, 0, 0, 4096, 0, 0, 40960, 336, 0, 0}},
     {"citadel", "exact", {2221, 0, 2221, 191, 2221, 13100, 336, 336, 0, 0}},
     {"citadel", "clustered", {12570, 271, 12570, 3195, 12656, 52292, 1835, 336, 33, 0}},
@@ -86,6 +92,12 @@ constexpr PinnedWork kPinnedWork[] = {
      {6633, 271, 6633, 3195, 38108, 311544, 994, 336, 36, 0},
      "tiles=4x3 lists=linked division=view_uniform"},
     {"citadel", "tiled", {13443, 271, 13443, 3195, 1181, 4912, 1660, 336, 25, 0}, "tiles=5x4"},
+    {"citadel", "light_linked_list", {5517, 271, 238531, 3195, 7643, 91780, 813, 336, 10, 5694}},
+    {"citadel",
+     "light_linked_list",
+     {3248, 271, 7191, 3195, 38991, 625980, 503, 336, 97, 7191},
+     "resolution=full link_bytes=16"},
+    {"citadel", "light_volumes", {23761, 0, 0, 3195, 0, 115020, 4312, 336, 0, 0}, "volume=rectangle"},
     {"bars", "brute_force", {2093056, 0, 0, 4096, 0, 0, 49152, 701, 0, 0}},
     {"bars", "exact", {3966, 0, 3966, 391, 3966, 20080, 701, 701, 0, 0}},
     {"bars", "clustered", {37737, 511, 37737, 3250, 12893, 53240, 4346, 701, 74, 0}},
@@ -110,6 +122,12 @@ constexpr PinnedWork kPinnedWork[] = {
      {16494, 511, 16494, 3250, 52490, 426600, 2878, 701, 119, 0},
      "tiles=4x3 lists=linked division=view_uniform"},
     {"bars", "tiled", {113538, 511, 113538, 3250, 4458, 18020, 6990, 701, 36, 0}, "tiles=5x4"},
+    {"bars", "light_linked_list", {15740, 511, 299549, 3250, 5100, 61264, 2346, 701, 12, 5100}},
+    {"bars",
+     "light_linked_list",
+     {6145, 511, 18835, 3250, 20344, 327628, 1054, 701, 178, 18835},
+     "resolution=full link_bytes=16"},
+    {"bars", "light_volumes", {60619, 0, 0, 3250, 0, 117000, 6322, 701, 0, 0}, "volume=rectangle"},
     {"cornell", "brute_force", {1183744, 0, 0, 4096, 0, 0, 36864, 1333, 0, 0}},
     {"cornell", "exact", {1749, 0, 1749, 1284, 1749, 11212, 1333, 1333, 0, 0}},
     {"cornell", "clustered", {87758, 289, 87758, 4096, 7944, 33444, 5056, 1333, 24, 0}},
@@ -134,6 +152,12 @@ constexpr PinnedWork kPinnedWork[] = {
      {34600, 289, 34600, 4096, 27897, 229856, 4633, 1333, 48, 0},
      "tiles=4x3 lists=linked division=view_uniform"},
     {"cornell", "tiled", {132085, 289, 132085, 4096, 5448, 21980, 10924, 1333, 24, 0}, "tiles=5x4"},
+    {"cornell", "light_linked_list", {35196, 289, 303776, 4096, 5236, 62896, 3056, 1333, 9, 5100}},
+    {"cornell",
+     "light_linked_list",
+     {5079, 289, 11341, 4096, 12160, 196684, 2135, 1333, 109, 11341},
+     "resolution=full link_bytes=16"},
+    {"cornell", "light_volumes", {20230, 0, 0, 4096, 0, 147456, 5216, 1333, 0, 0}, "volume=rectangle"},
 };
 
 class PinnedWorkTest : public TechniquesTest, public testing::WithParamInterface<PinnedWork> {};
@@ -168,8 +192,9 @@ OptionValues options_of(const PinnedWork& pinned) {
     const std::string name = pinned.technique;
     if (name == "brute_force" || name == "exact") return {};
     const std::string set = pinned.set;
+    const bool has_tiles = name != "light_linked_list" && name != "light_volumes";
     OptionValues options;
-    if (set.find("tiles=") == std::string::npos) options.push_back({"tile_size", "8"});
+    if (has_tiles && set.find("tiles=") == std::string::npos) options.push_back({"tile_size", "8"});
     std::istringstream words(set);
     for (std::string word; words >> word;) {
         const std::size_t sign = word.find('=');

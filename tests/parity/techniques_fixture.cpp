@@ -119,6 +119,16 @@ std::vector<Variant> all_variants() {
                      {"z_bins_16", "z_bins", {{"tile_size", "16"}, {"bins", "4096"}, {"spacing", "log"}}},
                      {"z_bins_64", "z_bins", {{"tile_size", "64"}, {"bins", "2048"}, {"sort_key", "near"}}},
                      {"z_bins_wave", "z_bins", {{"loop", "wave"}, {"summary", "on"}, {"spacing", "log"}}}});
+    variants.insert(
+        variants.end(),
+        {{"light_linked_list", "light_linked_list", {}},
+         {"light_linked_list_full", "light_linked_list", {{"resolution", "full"}, {"link_bytes", "16"}}},
+         {"light_linked_list_quarter", "light_linked_list", {{"resolution", "quarter"}, {"link_bytes", "12"}}},
+         {"light_linked_list_air", "light_linked_list", {{"depth_test", "off"}, {"first_links", "0"}}},
+         {"light_volumes", "light_volumes", {}},
+         {"light_volumes_front", "light_volumes", {{"volume", "front"}, {"mesh_level", "0"}}},
+         {"light_volumes_all", "light_volumes", {{"volume", "all"}, {"mesh_level", "0"}, {"order", "near"}}},
+         {"light_volumes_rectangle", "light_volumes", {{"volume", "rectangle"}}}});
     variants.push_back({"tiled", "tiled", {}});
     variants.push_back({"tiled_max_planes", "tiled", {{"depth", "max"}, {"test", "planes"}, {"tile_size", "13"}}});
     variants.push_back({"tiled_none_rectangle", "tiled", {{"depth", "none"}, {"test", "rectangle"}}});

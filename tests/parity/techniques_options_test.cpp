@@ -30,7 +30,8 @@ void expect_words(const std::string& message, const std::vector<std::string>& wo
 TEST_F(TechniquesTest, unknown_technique_names_the_choices) {
     const std::string message = refusal(device(), "magic", {});
     expect_words(message, {"magic", "brute_force", "exact", "clustered", "tiled_light_trees", "hybrid_light_trees",
-                           "depth_windows", "depth_windows_wave", "tiled", "culling_2_5d", "hybrid_lighting"});
+                           "depth_windows", "depth_windows_wave", "tiled", "culling_2_5d", "clustered_samples",
+                           "z_bins", "octree", "hybrid_lighting", "light_linked_list", "light_volumes"});
 }
 
 TEST_F(TechniquesTest, unknown_option_names_the_keys) {
@@ -105,6 +106,14 @@ TEST_F(TechniquesTest, values_out_of_range_name_the_range) {
     expect_words(refusal(device(), "hybrid_lighting", {{"cells", "some"}}), {"cells=some", "all, occupied"});
     expect_words(refusal(device(), "hybrid_lighting", {{"coverage", "ray"}}),
                  {"coverage=ray", "tile, centre_ray, plain"});
+    expect_words(refusal(device(), "light_linked_list", {{"resolution", "half"}}), {"half", "eighth, quarter, full"});
+    expect_words(refusal(device(), "light_linked_list", {{"link_bytes", "4"}}), {"link_bytes=4", "8, 12, 16"});
+    expect_words(refusal(device(), "light_linked_list", {{"depth_test", "1"}}), {"depth_test=1", "on, off"});
+    expect_words(refusal(device(), "light_linked_list", {{"first_links", "257"}}), {"first_links", "0", "256"});
+    expect_words(refusal(device(), "light_linked_list", {{"lossy", "on"}}), {"off, centre, coverage, rounding"});
+    expect_words(refusal(device(), "light_volumes", {{"volume", "cone"}}), {"cone", "back, front, all, rectangle"});
+    expect_words(refusal(device(), "light_volumes", {{"mesh_level", "4"}}), {"mesh_level", "0", "3"});
+    expect_words(refusal(device(), "light_volumes", {{"order", "far"}}), {"order", "far", "index, near"});
     const OptionValues heuristic{{"producer", "paper"}, {"heuristic", "f"}};
     expect_words(refusal(device(), "hybrid_light_trees", heuristic), {"heuristic", "f", "a, b, c, d, e, lists"});
 }
@@ -119,6 +128,8 @@ TEST_F(TechniquesTest, options_that_contradict_each_other_are_refused) {
     expect_words(refusal(device(), "clustered", {{"loop", "wave"}, {"producer", "library"}}),
                  {"clustered", "loop=wave", "producer=paper"});
     expect_words(refusal(device(), "tiled", {{"tile_size", "16"}, {"tiles", "8x8"}}), {"tiled", "tile_size", "tiles"});
+    expect_words(refusal(device(), "light_volumes", {{"volume", "rectangle"}, {"mesh_level", "1"}}),
+                 {"light_volumes", "mesh_level", "volume=rectangle"});
     for (const auto& [key, value] :
          OptionValues{{"tile_size", "16"}, {"normals", "off"}, {"unique", "sort"}, {"bounds", "explicit"}})
         expect_words(refusal(device(), "clustered_samples", {{"query", "hierarchy"}, {key, value}}),
@@ -144,6 +155,7 @@ TEST_F(TechniquesTest, tight_cells_and_the_loop_of_waves_choose_the_producer) {
 TEST(Techniques, infos_name_every_technique_and_their_options) {
     const std::vector<TechniqueInfo> infos = technique_infos();
     ASSERT_EQ(infos.size(), 12u);
+    ASSERT_EQ(infos.size(), 13u);
     EXPECT_EQ(infos[0].name, "brute_force");
     EXPECT_EQ(infos[1].name, "exact");
     for (const TechniqueInfo& info : infos) EXPECT_FALSE(info.summary.empty());

@@ -17,7 +17,7 @@ namespace manylights::lab {
 namespace {
 
 constexpr std::uint32_t kKeysCode[] =
-#include "z_bins_keys.comp.inc"
+#include "visible_lights_keys.comp.inc"
     ;
 constexpr std::uint32_t kSpansCode[] =
 #include "z_bins_spans.comp.inc"

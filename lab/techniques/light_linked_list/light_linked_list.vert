@@ -1,0 +1,14 @@
+#version 460
+// A light's rectangle: the texels under its pixels as a whole, so that each has its centre inside.
+#extension GL_GOOGLE_include_directive : require
+#include "lab/techniques/device/rectangle.glsl"
+#include "lab/techniques/light_linked_list/light_links_build.glsl"
+
+layout(location = 0) flat out uint rank;
+
+void main() {
+    VisibleLight light = lights.d[gl_InstanceIndex];
+    gl_Position = rectangle_vertex(gl_VertexIndex, first_pixel(light) / grid.tile_size,
+                                   last_pixel(light) / grid.tile_size + 1u, uvec2(grid.tiles_x, grid.tiles_y));
+    rank = uint(gl_InstanceIndex);
+}

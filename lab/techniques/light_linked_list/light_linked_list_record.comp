@@ -1,0 +1,4 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define MANYLIGHTS_RECORD
+#include "lab/techniques/light_linked_list/light_linked_list.glsl"
