@@ -21,7 +21,7 @@ const uint kMostLinks = 0x80000000u;
 
 // Known to be wrong: of the ray through the texel's centre alone. Empty where it misses the sphere.
 DepthSpan ray_depths(vec4 sphere, uvec2 texel) {
-    vec2 centre = (vec2(texel) + 0.5) * float(grid.tile_size);
+    vec2 centre = (vec2(texel) + 0.5) * vec2(grid.span / grid.tiles);
     vec3 ray = vec3((centre - 0.5 * vec2(view.size)) / vec2(view.right.w, view.down.w), 1.0);
     float a = dot(ray, ray), b = dot(ray, sphere.xyz);
     float d = b * b - a * (dot(sphere.xyz, sphere.xyz) - sphere.w * sphere.w);

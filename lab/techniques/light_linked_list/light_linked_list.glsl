@@ -69,7 +69,7 @@ void test_light(inout Pixel pixel, uint light) {
 }
 
 void walk(inout Pixel pixel) {
-    uint list = tile_index(header.grid, pixel.coordinates / header.grid.tile_size);
+    uint list = tile_index(header.grid, tile_of(header.grid, pixel.coordinates));
     touch_node(list / 4u);
 #if defined(MANYLIGHTS_RECORD)
     pixel.record.nodes += 1u;

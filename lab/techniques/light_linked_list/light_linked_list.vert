@@ -8,7 +8,7 @@ layout(location = 0) flat out uint rank;
 
 void main() {
     VisibleLight light = lights.d[gl_InstanceIndex];
-    gl_Position = rectangle_vertex(gl_VertexIndex, first_pixel(light) / grid.tile_size,
-                                   last_pixel(light) / grid.tile_size + 1u, uvec2(grid.tiles_x, grid.tiles_y));
+    gl_Position = rectangle_vertex(gl_VertexIndex, tile_of(grid, first_pixel(light)),
+                                   tile_of(grid, last_pixel(light)) + 1u, grid.tiles);
     rank = uint(gl_InstanceIndex);
 }

@@ -19,9 +19,9 @@ float depth_of(uvec2 pixel) {
 
 void main() {
     uvec2 texel = gl_GlobalInvocationID.xy;
-    if (texel.x >= grid.tiles_x || texel.y >= grid.tiles_y) return;
+    if (any(greaterThanEqual(texel, grid.tiles))) return;
     uvec2 first = first_pixel_of(grid, texel), last = last_pixel_of(grid, texel, uvec2(width, height));
-    if (kCentreOnly != 0u) first = last = min(first + grid.tile_size / 2u, last);
+    if (kCentreOnly != 0u) first = last = min(first + grid.span / grid.tiles / 2u, last);
     float depth = 0.0;
     for (uint y = first.y; y <= last.y; ++y)
         for (uint x = first.x; x <= last.x; ++x) depth = max(depth, depth_of(uvec2(x, y)));
