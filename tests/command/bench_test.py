@@ -52,14 +52,14 @@ class Bench(BenchTest):
             self.assertEqual(file.read(), done.stdout)
 
     def test_every_technique_has_the_light_sets_of_exact(self):
-        self.assert_done(*SMALL_BENCH, "--views", "path", "--lights", "300", "--techniques", "all")
+        self.assert_done(*SMALL_BENCH, "--quick", "--views", "path", "--lights", "300", "--techniques", "all")
         hashes = {}
         for row in self.rows():
             hashes.setdefault((row["lights"], row["camera"]), set()).add(row["light_set_hash"])
         self.assertEqual({len(found) for found in hashes.values()}, {1})
 
     def test_times_are_taken_where_they_are_asked_for(self):
-        self.assert_done(*SMALL_BENCH, "--views", "cameras", "--lights", "300", "--repeat", "2", "--techniques",
+        self.assert_done(*SMALL_BENCH, "--quick", "--views", "cameras", "--lights", "300", "--repeat", "2", "--techniques",
                          ",".join(USUAL + BUILT_ON_DEVICE))
         for row in self.rows():
             self.assertEqual(row["shade_ms"]["repeats"], 2)
@@ -68,12 +68,12 @@ class Bench(BenchTest):
                 self.assertEqual(row["shade_over_exact"], {"min": 1, "median": 1, "max": 1, "repeats": 2})
                 self.assertIsNone(row["build_ms"]["median"])
             else:
-                self.assertEqual(row["build_ms"]["repeats"], 2 * 5)
+                self.assertEqual(row["build_ms"]["repeats"], 2 * 3)
                 self.assertEqual(row["cold_build_ms"]["repeats"], 2)
                 on_device = row["technique"] in BUILT_ON_DEVICE
                 self.assertEqual(list(row["stages_ms"]), [] if on_device else ["plan", "write"])
                 for stage in row["stages_ms"].values():
-                    self.assertEqual(stage["repeats"], 2 * 5)
+                    self.assertEqual(stage["repeats"], 2 * 3)
 
     def test_two_runs_count_the_same(self):
         self.assert_done(*TINY)
