@@ -36,8 +36,8 @@ constexpr Entry kTechniques[] = {
     {culling_2_5d_info, make_culling_2_5d},
     {clustered_samples_info, make_clustered_samples},
     {z_bins_info, make_z_bins},
-    {octree_info, make_octree},
     {hybrid_lighting_info, make_hybrid_lighting},
+    {octree_info, make_octree},
 };
 
 } // namespace
