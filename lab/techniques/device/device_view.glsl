@@ -39,4 +39,21 @@ DepthSpan rectangle_depths(DeviceView view, uvec2 first, uvec2 last, vec4 sphere
     return meet(across, down);
 }
 
+// Whether the sphere, which may meet each side of that pyramid, is beside one of its four edges and misses all of it.
+bool misses_corner(DeviceView view, uvec2 first, uvec2 last, vec4 sphere) {
+    vec2 size = vec2(view.size);
+    bool misses = false;
+    for (uint corner = 0u; corner < 4u; ++corner) {
+        bvec2 is_last = bvec2((corner & 1u) != 0u, (corner & 2u) != 0u);
+        uvec2 pixel = mix(first, last, is_last);
+        vec2 outwards = mix(vec2(-1.0), vec2(1.0), is_last);
+        SlopeBound across =
+            SlopeBound(pixel_edge_slope(pixel.x, outwards.x, view.right.w, size.x, view.reach.x), -outwards.x);
+        SlopeBound down =
+            SlopeBound(pixel_edge_slope(pixel.y, outwards.y, view.down.w, size.y, view.reach.y), -outwards.y);
+        misses = misses || misses_edge(across, down, sphere.x, sphere.y, sphere.z, sphere.w);
+    }
+    return misses;
+}
+
 #endif

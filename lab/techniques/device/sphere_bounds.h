@@ -111,6 +111,32 @@ ML_FN DepthSpan wedge_depths(float low_slope, float high_slope, float offset, fl
                 half_space_depths(high_slope, -1.0f, offset, depth, radius));
 }
 
+// A half-space whose plane goes through the camera and is upright on an axis of the image: the slopes along the axis
+// that are above (side 1) or below (side -1) one.
+struct SlopeBound {
+    float slope, side;
+};
+
+// Whether the sphere misses all that two such half-spaces, of either axis, have in common, because it is beside the ray
+// in which their planes meet: it may meet both of them and still do so. Let n, m be their normals inwards, h, k the
+// distances of the centre c from the planes, and q the point of the ray's line next to c; then c - q = -(a n + b m)
+// with a = (g k - h) / (1 - g^2), b = (g h - k) / (1 - g^2), g = n.m, and no point in common is nearer than q where a
+// and b are above 0. False where another point is the next one.
+//
+// Slack: h and k are moved inwards as in half_space_depths, which moves the planes and leaves g as it is; 1e-5 of the
+// distance is ten times what the rest is off by, unless the planes are all but parallel.
+ML_FN bool misses_edge(SlopeBound across, SlopeBound down, float right, float below, float depth, float radius) {
+    float slack = 2e-6f * (abs(right) + abs(below) + abs(depth) + radius);
+    float n = across.side / sqrt(1.0f + across.slope * across.slope);
+    float m = down.side / sqrt(1.0f + down.slope * down.slope);
+    float h = n * (right - across.slope * depth) + slack;
+    float k = m * (below - down.slope * depth) + slack;
+    float g = n * across.slope * m * down.slope;
+    if (!(h < g * k && k < g * h) || g * g > 0.9f) return false;
+    float distance = sqrt(max((h * h + k * k - 2.0f * g * h * k) / (1.0f - g * g), 0.0f));
+    return distance * (1.0f - 1e-5f) >= radius;
+}
+
 // The slope at the outer edge of what a pixel's points may lie in: side -1 before it, 1 behind it.
 ML_FN float pixel_edge_slope(MlUint pixel, float side, float pixels_per_slope, float size, float reach) {
     return (float(pixel) + 0.5f + side * reach - 0.5f * size) / pixels_per_slope;

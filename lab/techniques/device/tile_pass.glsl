@@ -50,6 +50,10 @@ DepthSpan depths_in_tile(VisibleLight light, uvec2 tile) {
     return rectangle_depths(view, first_pixel_of(grid, tile), last_pixel_of(grid, tile, view.size), light.sphere);
 }
 
+bool misses_tile(VisibleLight light, uvec2 tile) {
+    return misses_corner(view, first_pixel_of(grid, tile), last_pixel_of(grid, tile, view.size), light.sphere);
+}
+
 #if defined(MANYLIGHTS_VERTEX)
 
 // A corner of the light's billboard, in tiles from the image's corner: of two triangles, 0 1 2 and 2 1 3. Snapped, it goes

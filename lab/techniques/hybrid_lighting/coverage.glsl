@@ -47,6 +47,7 @@ bool holds_centre(VisibleLight light, uvec2 tile) {
 DepthSpan covered_depths(VisibleLight light, uvec2 tile) {
     if (coverage == kCentreRay) return ray_depths(light.sphere, tile);
     if (coverage == kPlain && !holds_centre(light, tile)) return no_depths();
+    if (misses_tile(light, tile)) return no_depths();
     return depths_in_tile(light, tile);
 }
 

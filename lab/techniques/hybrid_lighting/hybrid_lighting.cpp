@@ -128,9 +128,8 @@ TechniqueInfo hybrid_lighting_info() {
         {{"lists", "how a froxel's lights are kept",
           "contiguous (default): counted, then written; linked: a list of links, in one pass"},
          {"billboards", "what goes over the tiles that a light covers",
-          "compute (default): a thread or more per light; raster: the rasteriser, which draws a rectangle per light "
-          "into "
-          "an image of a pixel per tile"},
+          "compute (default): a thread or more per light; raster: the rasteriser, which draws a rectangle per light, "
+          "with a pixel per tile"},
          {"cells", "which froxels have lists", "all (default), or occupied: those that hold points"},
          {"coverage", "when a light covers a tile, and at which depths",
           "tile (default): where its sphere meets the tile's pyramid; lossy: centre_ray, where the ray through the "

@@ -125,5 +125,80 @@ TEST(SphereBounds, NarrowDepthsToTheCap) {
                 1e-3);
 }
 
+struct Ball3 {
+    float right, below, depth, radius;
+};
+
+struct Point3 {
+    double right, below, depth;
+};
+
+bool is_on(const SlopeBound& bound, double offset, double depth) {
+    return bound.side * (offset - bound.slope * depth) >= 0.0;
+}
+
+double distance(const Ball3& ball, const Point3& point) {
+    return std::hypot(ball.right - point.right, ball.below - point.below, ball.depth - point.depth);
+}
+
+/// A ball beside the edge in which the planes meet: it touches a point of it, for reach 1, from the outside.
+struct EdgeCase {
+    SlopeBound across, down;
+    Point3 touched;
+    Ball3 ball;
+};
+
+EdgeCase random_edge_case(Random& random, double reach) {
+    const auto bound = [&] {
+        return SlopeBound{static_cast<float>(random.between(-1.5, 1.5)), random.chance(0.5) ? 1.0f : -1.0f};
+    };
+    EdgeCase made{bound(), bound(), {}, {}};
+    const double depth = std::exp2(random.between(-5, 12)), radius = depth * std::exp2(random.between(-12, 2));
+    made.touched = {made.across.slope * depth, made.down.slope * depth, depth};
+    // A direction outwards of both planes: a sum of their normals, times -1.
+    const double a = made.across.side * random.between(0.01, 1), b = made.down.side * random.between(0.01, 1);
+    const Point3 out{-a, -b, a * made.across.slope + b * made.down.slope};
+    const double scale = radius * reach / std::hypot(out.right, out.below, out.depth);
+    made.ball = {static_cast<float>(made.touched.right + scale * out.right),
+                 static_cast<float>(made.touched.below + scale * out.below),
+                 static_cast<float>(depth + scale * out.depth), static_cast<float>(radius)};
+    return made;
+}
+
+bool misses(const EdgeCase& made) {
+    return misses_edge(made.across, made.down, made.ball.right, made.ball.below, made.ball.depth, made.ball.radius);
+}
+
+TEST(SphereBounds, KeepWhatTouchesTheEdgeOfTwoPlanesAndDropWhatIsBesideIt) {
+    Random random(4);
+    int dropped = 0;
+    for (int i = 0; i < kSpheres; ++i) {
+        const EdgeCase inside = random_edge_case(random, 1.0 - 1e-9);
+        ASSERT_FALSE(misses(inside) && distance(inside.ball, inside.touched) <= inside.ball.radius) << i;
+        // As far away as rounding must not matter.
+        const EdgeCase outside = random_edge_case(random, 1.0 + 1e-4 + 1e-5 * std::exp2(12));
+        dropped += misses(outside) ? 1 : 0;
+    }
+    EXPECT_GT(dropped, kSpheres * 9 / 10);
+}
+
+TEST(SphereBounds, KeepTheSphereOfEachPointThatIsOnBothSides) {
+    Random random(5);
+    int inside = 0, dropped = 0;
+    for (int i = 0; i < kSpheres; ++i) {
+        const EdgeCase made = random_edge_case(random, random.between(-3.0, 1.2));
+        dropped += misses(made) ? 1 : 0;
+        for (int p = 0; p < kPoints; ++p) {
+            const oracle::Double3 offset = random.direction() * (made.ball.radius * 0.9999999);
+            const Point3 point{made.ball.right + offset.x, made.ball.below + offset.y, made.ball.depth + offset.z};
+            if (!is_on(made.across, point.right, point.depth) || !is_on(made.down, point.below, point.depth)) continue;
+            ++inside;
+            ASSERT_FALSE(misses(made)) << i;
+        }
+    }
+    EXPECT_GT(inside, kSpheres);
+    EXPECT_GT(dropped, kSpheres / 100);
+}
+
 } // namespace
 } // namespace manylights::lab
