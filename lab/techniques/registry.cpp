@@ -38,10 +38,10 @@ constexpr Entry kTechniques[] = {
     {culling_2_5d_info, make_culling_2_5d},
     {clustered_samples_info, make_clustered_samples},
     {z_bins_info, make_z_bins},
-    {octree_info, make_octree},
     {hybrid_lighting_info, make_hybrid_lighting},
     {light_linked_list_info, make_light_linked_list},
     {light_volumes_info, make_light_volumes},
+    {octree_info, make_octree},
 };
 
 } // namespace

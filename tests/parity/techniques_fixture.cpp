@@ -166,16 +166,16 @@ std::vector<Variant> all_variants() {
                          {"unique", "sort"},
                          {"corners", "computed"},
                          {"assign", "tiles"},
-                         {"tiles", "60x34"},
+                         {"tiles", "16x9"},
                          {"division", "view_uniform"}}});
     variants.push_back({"octree_leaves",
                         "octree",
                         {{"inner", "off"},
                          {"assign", "billboards"},
                          {"unique", "compact_sort"},
-                         {"tiles", "32x32"},
+                         {"tiles", "12x12"},
                          {"division", "screen_uniform"},
-                         {"slices", "256"}}});
+                         {"slices", "64"}}});
     return variants;
 }
 

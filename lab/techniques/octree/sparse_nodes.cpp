@@ -13,6 +13,9 @@ constexpr std::uint32_t kInsertCode[] =
 
 constexpr std::uint64_t kWord = sizeof(std::uint32_t);
 constexpr std::uint32_t kGroupSize = 64; // of the shader
+// Siblings begin at a multiple of their number, the root as if it had some: which lists lie side by side does then not
+// depend on who came first.
+constexpr std::uint32_t kSiblings = 8;
 
 /// Of the shader: nodes that have a number, and froxels put aside.
 struct Counts {
@@ -31,7 +34,7 @@ class SparseNodes : public OctreeNodes {
     double build(const FroxelGrid& grid, const OctreeLevels& levels, const OccupiedCells& cells) override {
         begin(levels, cells);
         double milliseconds = 0.0;
-        Counts counts{1, cells.count()};
+        Counts counts{kSiblings, cells.count()};
         const gpu::Buffer* inserted = &cells.cells();
         for (std::size_t round = 0; counts.later != 0; ++round) {
             const std::uint32_t count = counts.later;
@@ -51,9 +54,9 @@ class SparseNodes : public OctreeNodes {
   private:
     // Children belong to nodes above froxels, and these are no more than there are froxels, on each level.
     void begin(const OctreeLevels& levels, const OccupiedCells& cells) {
-        std::uint64_t nodes = 1;
+        std::uint64_t nodes = kSiblings;
         for (std::uint32_t level = 1; level < levels.count(); ++level)
-            nodes += 8 * std::min<std::uint64_t>(cells.count(), levels.nodes_of(level));
+            nodes += kSiblings * std::min<std::uint64_t>(cells.count(), levels.nodes_of(level));
         pool_.fit(kWord * nodes);
         pool_.buffer().fill(0);
         counts_.fit(sizeof(Counts));
