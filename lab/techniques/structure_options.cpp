@@ -15,6 +15,9 @@ constexpr const char* kListing4[] = {"corrected", "printed"};
 constexpr const char* kSortKeys[] = {"centre", "near"};
 constexpr const char* kCellTests[] = {"box", "tight"};
 constexpr const char* kLoops[] = {"lane", "wave"};
+constexpr const char* kPaths[] = {"one", "three"};
+constexpr const char* kSwitch[] = {"off", "on"};
+constexpr const char* kLights[] = {"indexed", "duplicated"};
 // In the order of paper::Heuristic: "e" always makes trees, "lists" never does.
 constexpr const char* kHeuristics[] = {"a", "b", "c", "d", "e", "lists"};
 
@@ -34,7 +37,15 @@ void choose_producer(const TechniqueInfo& info, const OptionReader& reader, Stru
     if (reader.given("producer") && options.producer == ProducerKind::library)
         throw InputError(
             fmt::format("{}: option {} needs producer=paper", info.name, is_tight ? "cell_test=tight" : "loop=wave"));
+    if (options.loop == ListLoop::wave && reader.given("lights"))
+        throw InputError(fmt::format("{}: option lights: not with loop=wave", info.name));
     options.producer = ProducerKind::paper;
+}
+
+void read_walk(const OptionReader& reader, StructureOptions& options) {
+    options.has_three_paths = reader.choice("paths", kPaths) == 1;
+    options.copies_trees = reader.choice("lds", kSwitch) == 1;
+    options.has_records = reader.choice("lights", kLights) == 1;
 }
 
 } // namespace
@@ -65,6 +76,14 @@ std::vector<OptionInfo> structure_option_infos(StructureKind kind) {
     if (has_trees(kind))
         infos.push_back(
             {"sort_key", "depth that lights are sorted by, with producer=paper", "centre (default) or near"});
+    if (kind == StructureKind::hybrid)
+        infos.push_back({"paths", "loops of the shader, chosen by a workgroup's vote",
+                         "one (default), or three: for lists, for trees, for both"});
+    if (has_trees(kind))
+        infos.push_back({"lds", "a tree that a whole workgroup walks is copied to its memory first",
+                         "off (default) or on: trees of up to 1024 nodes"});
+    infos.push_back({"lights", "how lists and leaves hold lights",
+                     "indexed (default), or duplicated: a record of 32 bytes per reference"});
     return infos;
 }
 
@@ -86,6 +105,7 @@ StructureOptions read_structure_options(const TechniqueInfo& info, StructureKind
     options.heuristic = static_cast<paper::Heuristic>(reader.choice("heuristic", kHeuristics));
     options.slice_formula = static_cast<paper::SliceFormula>(reader.choice("listing4", kListing4));
     options.sort_key = static_cast<paper::SortKey>(reader.choice("sort_key", kSortKeys));
+    read_walk(reader, options);
     if (options.slice_near && options.slice_far && !(*options.slice_near < *options.slice_far))
         throw InputError(fmt::format("{}: option slice_near={}: must be below slice_far={}", info.name,
                                      *options.slice_near, *options.slice_far));

@@ -23,6 +23,11 @@ struct StructureOptions {
     paper::SortKey sort_key = paper::SortKey::center_depth;
     paper::CellTest cell_test = paper::CellTest::box; ///< these two: of lists only, and tight and wave the same
     ListLoop loop = ListLoop::lane;
+    bool has_three_paths = false; ///< these three: how tree_walk.glsl reads the structure
+    bool copies_trees = false;
+    bool has_records = false; ///< lights in the place of the references to them: light_records.h
+
+    bool needs_tree_walk() const { return has_three_paths || copies_trees || has_records; }
 };
 
 std::vector<OptionInfo> structure_option_infos(StructureKind kind);
