@@ -1,6 +1,7 @@
 #include "lab/techniques/structure_technique.h"
 
 #include "lab/renderer/point_buffer.h"
+#include "lab/techniques/device_build/device_build.h"
 #include "lab/techniques/host_structure.h"
 #include "lab/techniques/light_records.h"
 
@@ -33,6 +34,11 @@ constexpr std::uint32_t kWalkLogCode[] =
 // 16 KiB of a workgroup's memory, of which Vulkan promises as much.
 constexpr std::uint32_t kCopiedNodes = 1024;
 
+std::unique_ptr<StructureBuild> make_build(gpu::Device& device, const std::string& name,
+                                           const StructureOptions& options) {
+    return options.on_device ? make_device_build(device, name, options) : make_host_build(device, options);
+}
+
 } // namespace
 
 TechniqueInfo structure_technique_info(const char* name, const char* summary, StructureKind kind) {
@@ -63,7 +69,7 @@ StructureTechnique::StructureTechnique(gpu::Device& device, TechniqueInfo info, 
 StructureTechnique::StructureTechnique(gpu::Device& device, TechniqueInfo info, const StructureOptions& options,
                                        const QueryShaders& shaders)
     : device_(device), info_(std::move(info)), has_records_(options.has_records),
-      build_(make_host_build(device, options)),
+      build_(make_build(device, info_.name, options)),
       pass_(device,
             {info_.name, shaders.record, shaders.shade, shaders.log, 5, shaders.constants, shaders.log_has_wave_size},
             LightSplit::none) {}

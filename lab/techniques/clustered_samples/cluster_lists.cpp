@@ -2,7 +2,7 @@
 
 #include "lab/gpu/device.h"
 #include "lab/scene/error.h"
-#include "lab/techniques/clustered_samples/spread.h"
+#include "lab/techniques/device/spread.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 // to write to the places that the counts leave.
 #extension GL_GOOGLE_include_directive : require
 #include "lab/techniques/clustered_samples/cluster.glsl"
-#include "lab/techniques/clustered_samples/spread.glsl"
+#include "lab/techniques/device/spread.glsl"
 
 layout(constant_id = 0) const bool kIsWriting = false;
 

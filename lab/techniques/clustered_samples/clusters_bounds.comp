@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lab/techniques/clustered_samples/cluster.glsl"
 #include "lab/techniques/clustered_samples/samples.glsl"
-#include "lab/techniques/clustered_samples/spread.glsl"
+#include "lab/techniques/device/spread.glsl"
 
 layout(constant_id = 0) const bool kIsExplicit = false;
 

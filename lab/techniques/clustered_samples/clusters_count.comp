@@ -1,7 +1,7 @@
 #version 460
 // How many bits each word has.
 #extension GL_GOOGLE_include_directive : require
-#include "lab/techniques/clustered_samples/spread.glsl"
+#include "lab/techniques/device/spread.glsl"
 
 layout(local_size_x = 256) in;
 layout(std430, set = 0, binding = 0) readonly buffer Bits { uint d[]; } bits;

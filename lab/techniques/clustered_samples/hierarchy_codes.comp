@@ -3,7 +3,7 @@
 // hierarchy, and never what is found there.
 #extension GL_GOOGLE_include_directive : require
 #include "lab/techniques/clustered_samples/hierarchy.glsl"
-#include "lab/techniques/clustered_samples/spread.glsl"
+#include "lab/techniques/device/spread.glsl"
 #include "lab/techniques/device/visible_light.glsl"
 
 layout(local_size_x = 256) in;

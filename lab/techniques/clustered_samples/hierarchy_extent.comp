@@ -2,7 +2,7 @@
 // The box of the lights' centres: the greatest of each coordinate and of its negative, as ordered words.
 #extension GL_GOOGLE_include_directive : require
 #include "lab/techniques/clustered_samples/hierarchy.glsl"
-#include "lab/techniques/clustered_samples/spread.glsl"
+#include "lab/techniques/device/spread.glsl"
 #include "lab/techniques/device/visible_light.glsl"
 
 layout(local_size_x = 256) in;

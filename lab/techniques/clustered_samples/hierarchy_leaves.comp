@@ -1,7 +1,7 @@
 #version 460
 // The lights in the order of the hierarchy: spheres in the camera's axes, and which lights they are.
 #extension GL_GOOGLE_include_directive : require
-#include "lab/techniques/clustered_samples/spread.glsl"
+#include "lab/techniques/device/spread.glsl"
 #include "lab/techniques/device/visible_light.glsl"
 
 layout(local_size_x = 256) in;

@@ -2,7 +2,7 @@
 // The boxes of a level's nodes, each around its children's: of level 0, the lights' spheres.
 #extension GL_GOOGLE_include_directive : require
 #include "lab/techniques/clustered_samples/hierarchy.glsl"
-#include "lab/techniques/clustered_samples/spread.glsl"
+#include "lab/techniques/device/spread.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 0) readonly buffer Shapes { HierarchyShape d[]; } shapes;

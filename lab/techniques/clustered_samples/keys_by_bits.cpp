@@ -1,6 +1,6 @@
 #include "lab/gpu/device.h"
-#include "lab/techniques/clustered_samples/spread.h"
 #include "lab/techniques/clustered_samples/unique_keys.h"
+#include "lab/techniques/device/spread.h"
 
 namespace manylights::lab {
 

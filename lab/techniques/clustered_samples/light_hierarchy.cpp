@@ -1,7 +1,7 @@
 #include "lab/techniques/clustered_samples/light_hierarchy.h"
 
 #include "lab/gpu/device.h"
-#include "lab/techniques/clustered_samples/spread.h"
+#include "lab/techniques/device/spread.h"
 
 namespace manylights::lab {
 

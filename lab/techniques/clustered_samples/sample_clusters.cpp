@@ -1,7 +1,7 @@
 #include "lab/techniques/clustered_samples/sample_clusters.h"
 
 #include "lab/gpu/device.h"
-#include "lab/techniques/clustered_samples/spread.h"
+#include "lab/techniques/device/spread.h"
 
 namespace manylights::lab {
 

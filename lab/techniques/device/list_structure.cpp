@@ -1,7 +1,5 @@
 #include "lab/techniques/device/list_structure.h"
 
-#include <manylights/format.h>
-
 #include <array>
 #include <limits>
 #include <numeric>
@@ -12,27 +10,28 @@ namespace {
 
 constexpr std::array<float, 2> kSliceEdges{0.0f, std::numeric_limits<float>::infinity()};
 
-MlView view_of(std::uint32_t width, std::uint32_t height, const TileGrid& grid) {
+} // namespace
+
+MlView structure_view(std::uint32_t width, std::uint32_t height, const TileGrid& grid, std::uint32_t slice_count,
+                      MlUint structure) {
     MlView view{};
     view.width = width;
     view.height = height;
     view.tile_px = grid.tile_size;
     view.tiles_x = grid.tiles_x;
     view.tiles_y = grid.tiles_y;
-    view.slice_count = 1;
-    view.cell_count = grid.tile_count();
-    view.structure = ML_STRUCTURE_LISTS;
+    view.slice_count = slice_count;
+    view.cell_count = grid.tile_count() * slice_count;
+    view.structure = structure;
     return view;
 }
-
-} // namespace
 
 ListStructure::ListStructure(gpu::Device& device)
     : views_(device, "view of lists"), nodes_(device, "nodes of lists"),
       slice_edges_(device, "slice edges of lists", std::span<const float>(kSliceEdges)) {}
 
 void ListStructure::fit(std::uint32_t width, std::uint32_t height, const TileGrid& grid) {
-    const MlView view = view_of(width, height, grid);
+    const MlView view = structure_view(width, height, grid, 1, ML_STRUCTURE_LISTS);
     views_.fit(sizeof view);
     views_.buffer().upload(std::span<const MlView>(&view, 1));
     nodes_.fit(0);
