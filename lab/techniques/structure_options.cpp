@@ -30,16 +30,16 @@ bool has_trees(StructureKind kind) { return kind == StructureKind::trees || kind
 
 // The paper's switches: the library has one setting of each.
 void refuse_papers_switches(const TechniqueInfo& info, const OptionReader& reader) {
-    for (const char* key : {"sort", "tree", "entry"})
+    for (const char* key : {"tree", "entry"})
         if (reader.given(key)) throw InputError(fmt::format("{}: option {} needs producer=paper", info.name, key));
-    for (const char* key : {"heuristic", "listing4", "sort_key", "list_bounds"})
+    for (const char* key : {"heuristic", "listing4", "sort_key", "sort", "list_bounds"})
         if (reader.given(key))
             throw InputError(fmt::format("{}: option {} needs producer=paper or build=device", info.name, key));
 }
 
 // What the passes on the device have no form of.
 void refuse_hosts_switches(const TechniqueInfo& info, const OptionReader& reader, const StructureOptions& options) {
-    for (const char* key : {"producer", "cell_test", "sort", "tree", "entry"})
+    for (const char* key : {"producer", "cell_test", "tree", "entry"})
         if (reader.given(key)) throw InputError(fmt::format("{}: option {}: not with build=device", info.name, key));
     if (options.heuristic == paper::Heuristic::expected_cost)
         throw InputError(fmt::format("{}: option heuristic=d: not with build=device", info.name));
@@ -81,7 +81,7 @@ void add_tree_infos(StructureKind kind, std::vector<OptionInfo>& infos) {
     }
     infos.push_back({"sort_key", "depth that lights are sorted by, with producer=paper or build=device",
                      "centre (default) or near"});
-    infos.push_back({"sort", "what is sorted by depth, with producer=paper",
+    infos.push_back({"sort", "what is sorted by depth, with producer=paper or build=device",
                      "global (default): all lights once, or cell: the lights of each cell"});
     infos.push_back({"tree", "how trees are built, with producer=paper",
                      "bottom_up (default): perfect ones, or top_down: split where the modelled cost is least"});

@@ -42,6 +42,7 @@ std::vector<Variant> variants() {
             {"trees", "tiled_light_trees", on_device()},
             {"trees of small leaves", "tiled_light_trees", on_device({{"leaf_size", "1"}, {"tile_size", "13"}})},
             {"trees by near ends", "tiled_light_trees", on_device({{"sort_key", "near"}, {"lds", "on"}})},
+            {"trees of sorted tiles", "tiled_light_trees", on_device({{"sort", "cell"}})},
             {"hybrid", "hybrid_light_trees", on_device()},
             {"hybrid b", "hybrid_light_trees", on_device({{"heuristic", "b"}, {"paths", "three"}})},
             {"hybrid c", "hybrid_light_trees", on_device({{"heuristic", "c"}, {"sort_key", "near"}})},
@@ -194,6 +195,23 @@ TEST_F(DeviceBuildTest, writes_the_same_bytes_in_every_run) {
         const auto bytes = bytes_of(first->build(view.frame(), lights));
         EXPECT_EQ(bytes, bytes_of(second->build(view.frame(), lights)));
         EXPECT_EQ(bytes, bytes_of(first->build(view.frame(), lights))) << "once more";
+    }
+}
+
+// Sorts are stable, so that lights of one depth, too, come in the same order.
+TEST_F(DeviceBuildTest, writes_the_same_bytes_whatever_is_sorted) {
+    View view = made_view(device(), 97, 60, 2500);
+    for (std::size_t i = 0; i < 2500; i += 3) view.lights[i].sphere = view.lights[i / 2].sphere;
+    const FrameLights lights(device(), view.frame());
+    for (const StructureKind kind : {StructureKind::trees, StructureKind::hybrid}) {
+        for (const paper::SortKey key : {paper::SortKey::center_depth, paper::SortKey::near_depth}) {
+            StructureOptions options = structure_options(kind);
+            options.sort_key = key;
+            const auto global = make_device_build(device(), "global", options);
+            options.sort_scope = paper::SortScope::each_cell;
+            const auto cells = make_device_build(device(), "cells", options);
+            EXPECT_EQ(bytes_of(global->build(view.frame(), lights)), bytes_of(cells->build(view.frame(), lights)));
+        }
     }
 }
 

@@ -19,6 +19,8 @@ class DepthOrder {
 
     /// By rank: which of the lights in view.
     const gpu::Buffer& order() const { return order_.buffer(); }
+    /// By rank: a whole number that ascends with the light's depth. Where nothing was sorted; else undefined.
+    const gpu::Buffer& unsorted_keys() const { return keys_.buffer(); }
 
   private:
     gpu::RadixSort sort_;

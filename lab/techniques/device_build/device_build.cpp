@@ -41,6 +41,8 @@ class DeviceBuild : public StructureBuild {
     void add_stage(const char* name, double ms);
 
     bool has_trees() const { return options_.kind != StructureKind::lists; }
+    // Lists need no order.
+    paper::SortScope scope() const { return has_trees() ? options_.sort_scope : paper::SortScope::all_lights; }
 
     gpu::Device& device_;
     StructureOptions options_;
@@ -72,7 +74,7 @@ BuiltStructure DeviceBuild::build(const Frame& frame, const FrameLights& lights)
     add_stage("cull", visible_.find(view, lights.spheres, lights.stream.light_count()));
     add_stage("sort", sort_lights());
     const CellGrid grid{tiles, slices_.count(), slice_edges_.buffer()};
-    add_stage("bin", grid_references_.find(grid, visible_, order_));
+    add_stage("bin", grid_references_.find(grid, visible_, order_, scope()));
     if (has_trees())
         add_stage("tree",
                   trees_.build(grid, visible_, order_, grid_references_, {frame.camera.near_plane, range.far_edge}));
@@ -107,7 +109,7 @@ double DeviceBuild::sort_lights() {
     order_.reserve(visible_.count());
     gpu::Commands commands(device_);
     const std::uint32_t start = commands.timestamp();
-    order_.record(commands, visible_, has_trees());
+    order_.record(commands, visible_, has_trees() && scope() == paper::SortScope::all_lights);
     const std::uint32_t end = commands.timestamp();
     commands.submit_and_wait("lights by depth");
     return commands.milliseconds(start, end);

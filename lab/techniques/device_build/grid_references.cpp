@@ -20,7 +20,14 @@ constexpr std::uint32_t kPairsCode[] =
 #include "cells_pairs.comp.inc"
     ;
 
-constexpr std::uint32_t kGroupSize = 64;
+constexpr std::uint32_t kDepthsCode[] =
+#include "depths_of_references.comp.inc"
+    ;
+constexpr std::uint32_t kInOrderCode[] =
+#include "references_in_order.comp.inc"
+    ;
+
+constexpr std::uint32_t kGroupSize = 64, kDepthBits = 32;
 constexpr std::uint64_t kWord = sizeof(std::uint32_t);
 
 struct CountPush {
@@ -39,19 +46,25 @@ GridReferences::GridReferences(gpu::Device& device, std::string name)
     : device_(device), name_(std::move(name)), prefix_sum_(device), sort_(device),
       count_pipeline_(device, {"cells of lights", kCountCode, 5, sizeof(CountPush), {}}),
       pairs_pipeline_(device, {"pairs of cells and lights", kPairsCode, 7, sizeof(PairsPush), {}}),
+      depths_pipeline_(device, {"depths of references", kDepthsCode, 4, sizeof(std::uint32_t), {}}),
+      in_order_pipeline_(device, {"references by depth", kInOrderCode, 5, sizeof(std::uint32_t), {}}),
       light_counts_(device, "cells of each light"), light_places_(device, "places of lights' pairs"),
       farthest_(device, "the farthest light"), total_(device, "number of references"),
       cells_(device, "cells of references"), ranks_(device, "ranks of references"),
-      cell_counts_(device, "references of each cell"), cell_places_(device, "places of cells") {}
+      cell_counts_(device, "references of each cell"), cell_places_(device, "places of cells"),
+      depths_(device, "depths of references"), numbers_(device, "order of references"),
+      unordered_cells_(device, "cells of unordered references"),
+      unordered_ranks_(device, "ranks of unordered references") {}
 
-double GridReferences::find(const CellGrid& grid, const VisibleLights& lights, const DepthOrder& order) {
+double GridReferences::find(const CellGrid& grid, const VisibleLights& lights, const DepthOrder& order,
+                            paper::SortScope scope) {
     if (grid.cell_count() > gpu::PrefixSum::kMaxCount)
         throw InputError(fmt::format("{}: {} cells; at most {} can be built on the device: larger tiles or fewer "
                                      "slices need fewer",
                                      name_, grid.cell_count(), gpu::PrefixSum::kMaxCount));
     const double milliseconds = count_cells(grid, lights, order);
     take_count(lights.count());
-    return milliseconds + scatter(grid, lights, order);
+    return milliseconds + scatter(grid, lights, order, scope);
 }
 
 double GridReferences::count_cells(const CellGrid& grid, const VisibleLights& lights, const DepthOrder& order) {
@@ -86,7 +99,8 @@ void GridReferences::take_count(std::uint32_t lights) {
     count_ = static_cast<std::uint32_t>(sum);
 }
 
-double GridReferences::scatter(const CellGrid& grid, const VisibleLights& lights, const DepthOrder& order) {
+double GridReferences::scatter(const CellGrid& grid, const VisibleLights& lights, const DepthOrder& order,
+                               paper::SortScope scope) {
     const auto cell_count = static_cast<std::uint32_t>(grid.cell_count());
     for (FittedBuffer* buffer : {&cells_, &ranks_}) buffer->fit(count_ * kWord);
     for (FittedBuffer* buffer : {&cell_counts_, &cell_places_}) buffer->fit(cell_count * kWord);
@@ -96,16 +110,8 @@ double GridReferences::scatter(const CellGrid& grid, const VisibleLights& lights
     commands.fill(cell_counts_.buffer(), 0);
     commands.barrier();
     if (count_ != 0) {
-        commands.dispatch(pairs_pipeline_,
-                          {{lights.lights()},
-                           {order.order()},
-                           {grid.slice_edges},
-                           {light_places_.buffer()},
-                           {cells_.buffer()},
-                           {ranks_.buffer()},
-                           {cell_counts_.buffer()}},
-                          PairsPush{grid.tiles, grid.slice_count, lights.count(), count_},
-                          spread_groups(gpu::group_count(count_, kGroupSize)));
+        record_pairs(commands, grid, lights, order);
+        if (scope == paper::SortScope::each_cell) record_depth_sort(commands, order);
         const auto bits = static_cast<std::uint32_t>(std::bit_width(cell_count - 1));
         sort_.record(commands, cells_.buffer(), ranks_.buffer(), count_, std::max(bits, 1u));
     }
@@ -113,6 +119,41 @@ double GridReferences::scatter(const CellGrid& grid, const VisibleLights& lights
     const std::uint32_t end = commands.timestamp();
     commands.submit_and_wait("references of cells");
     return commands.milliseconds(start, end);
+}
+
+void GridReferences::record_pairs(gpu::Commands& commands, const CellGrid& grid, const VisibleLights& lights,
+                                  const DepthOrder& order) {
+    commands.dispatch(pairs_pipeline_,
+                      {{lights.lights()},
+                       {order.order()},
+                       {grid.slice_edges},
+                       {light_places_.buffer()},
+                       {cells_.buffer()},
+                       {ranks_.buffer()},
+                       {cell_counts_.buffer()}},
+                      PairsPush{grid.tiles, grid.slice_count, lights.count(), count_},
+                      spread_groups(gpu::group_count(count_, kGroupSize)));
+    commands.barrier();
+}
+
+// All references by depth; the sort by cell, which follows and is stable, then leaves each cell in that order.
+void GridReferences::record_depth_sort(gpu::Commands& commands, const DepthOrder& order) {
+    const std::array<std::uint32_t, 3> groups = spread_groups(gpu::group_count(count_, kGroupSize));
+    for (FittedBuffer* buffer : {&depths_, &numbers_, &unordered_cells_, &unordered_ranks_})
+        buffer->fit(count_ * kWord);
+    commands.dispatch(depths_pipeline_,
+                      {{ranks_.buffer()}, {order.unsorted_keys()}, {depths_.buffer()}, {numbers_.buffer()}}, count_,
+                      groups);
+    commands.copy(cells_.buffer(), unordered_cells_.buffer(), count_ * kWord);
+    commands.copy(ranks_.buffer(), unordered_ranks_.buffer(), count_ * kWord);
+    sort_.record(commands, depths_.buffer(), numbers_.buffer(), count_, kDepthBits);
+    commands.dispatch(in_order_pipeline_,
+                      {{numbers_.buffer()},
+                       {unordered_cells_.buffer()},
+                       {unordered_ranks_.buffer()},
+                       {cells_.buffer()},
+                       {ranks_.buffer()}},
+                      count_, groups);
 }
 
 } // namespace manylights::lab

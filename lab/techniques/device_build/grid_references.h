@@ -5,6 +5,7 @@
 
 #include "lab/techniques/device/depth_order.h"
 #include "lab/techniques/device/tile_grid.h"
+#include "reference/paper/options.h"
 
 namespace manylights::lab {
 
@@ -23,8 +24,9 @@ class GridReferences {
     GridReferences(gpu::Device& device, std::string name);
 
     /// Finds them and waits; the device's time in milliseconds. Throws InputError where there are more than can be
-    /// sorted.
-    double find(const CellGrid& grid, const VisibleLights& lights, const DepthOrder& order);
+    /// sorted. scope: each_cell where the order is unsorted, and the references are to ascend by depth all the same.
+    double find(const CellGrid& grid, const VisibleLights& lights, const DepthOrder& order,
+                paper::SortScope scope = paper::SortScope::all_lights);
 
     std::uint32_t count() const { return count_; }
     /// By reference: the rank of its light.
@@ -38,14 +40,18 @@ class GridReferences {
   private:
     double count_cells(const CellGrid& grid, const VisibleLights& lights, const DepthOrder& order);
     void take_count(std::uint32_t lights);
-    double scatter(const CellGrid& grid, const VisibleLights& lights, const DepthOrder& order);
+    double scatter(const CellGrid& grid, const VisibleLights& lights, const DepthOrder& order, paper::SortScope scope);
+    void record_pairs(gpu::Commands& commands, const CellGrid& grid, const VisibleLights& lights,
+                      const DepthOrder& order);
+    void record_depth_sort(gpu::Commands& commands, const DepthOrder& order);
 
     gpu::Device& device_;
     std::string name_;
     gpu::PrefixSum prefix_sum_;
     gpu::RadixSort sort_;
-    gpu::ComputePipeline count_pipeline_, pairs_pipeline_;
+    gpu::ComputePipeline count_pipeline_, pairs_pipeline_, depths_pipeline_, in_order_pipeline_;
     FittedBuffer light_counts_, light_places_, farthest_, total_, cells_, ranks_, cell_counts_, cell_places_;
+    FittedBuffer depths_, numbers_, unordered_cells_, unordered_ranks_; ///< of cells that are sorted on their own
     std::uint32_t count_ = 0;
 };
 
