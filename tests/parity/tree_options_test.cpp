@@ -102,8 +102,8 @@ TEST_F(TreeOptions, are_exact_for_every_count_and_size) {
 }
 
 // One tile with more lights than 16 bits count, and trees with more nodes than workgroup memory holds.
-TEST_F(TreeOptions, are_exact_for_65537_lights_in_a_tile) {
-    const View view = made_view(device(), 24, 24, 65537);
+TEST_F(TreeOptions, are_exact_for_80000_lights_in_a_tile) {
+    const View view = made_view(device(), 24, 24, 80000);
     const OptionValues small_leaves{{"leaf_size", "1"}};
     const std::vector<Case> cases{
         {kTrees, small_leaves + kLds},
@@ -111,7 +111,7 @@ TEST_F(TreeOptions, are_exact_for_65537_lights_in_a_tile) {
         {kTrees, kPaper + small_leaves + OptionValues{{"tree", "top_down"}}},
         {kTrees, kPaper + OptionValues{{"sort", "cell"}}},
         {kHybrid, kPaper + kThree + kLds + OptionValues{{"heuristic", "lists"}, {"slice_count", "1"}}}};
-    expect_exact(view, cases, "65537 lights");
+    expect_exact(view, cases, "80000 lights");
 }
 
 // Tiles of 48 pixels hold whole workgroups; those of 20 cut some of them, whose pixels then walk different
