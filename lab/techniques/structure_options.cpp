@@ -63,6 +63,27 @@ void choose_producer(const TechniqueInfo& info, const OptionReader& reader, Stru
     options.producer = ProducerKind::paper;
 }
 
+void read_builder(const TechniqueInfo& info, const OptionReader& reader, StructureOptions& options) {
+    options.producer = static_cast<ProducerKind>(reader.choice("producer", kProducers));
+    options.on_device = reader.choice("build", kBuilds) == 1;
+    options.cell_test = static_cast<paper::CellTest>(reader.choice("cell_test", kCellTests));
+    options.loop = static_cast<ListLoop>(reader.choice("loop", kLoops));
+    choose_producer(info, reader, options);
+}
+
+void read_papers_switches(const TechniqueInfo& info, const OptionReader& reader, StructureOptions& options) {
+    if (options.producer == ProducerKind::library && !options.on_device) refuse_papers_switches(info, reader);
+    options.heuristic = static_cast<paper::Heuristic>(reader.choice("heuristic", kHeuristics));
+    options.slice_formula = static_cast<paper::SliceFormula>(reader.choice("listing4", kListing4));
+    options.sort_key = static_cast<paper::SortKey>(reader.choice("sort_key", kSortKeys));
+    options.sort_scope = static_cast<paper::SortScope>(reader.choice("sort", kSorts));
+    options.tree_build = static_cast<paper::TreeBuild>(reader.choice("tree", kTrees));
+    options.tree_entry = static_cast<paper::TreeEntry>(reader.choice("entry", kEntries));
+    options.list_bounds = static_cast<paper::ListBounds>(reader.choice("list_bounds", kListBounds));
+    if (options.on_device) refuse_hosts_switches(info, reader, options);
+    refuse_unused_slices(info, reader, options);
+}
+
 void read_walk(const TechniqueInfo& info, const OptionReader& reader, StructureOptions& options) {
     options.has_three_paths = reader.choice("paths", kPaths) == 1;
     options.copies_trees = reader.choice("lds", kSwitch) == 1;
@@ -140,21 +161,8 @@ StructureOptions read_structure_options(const TechniqueInfo& info, StructureKind
     options.leaf_size = reader.whole_number("leaf_size", options.leaf_size, 1, 65535);
     options.slice_near = reader.positive_number("slice_near");
     options.slice_far = reader.positive_number("slice_far");
-    options.producer = static_cast<ProducerKind>(reader.choice("producer", kProducers));
-    options.cell_test = static_cast<paper::CellTest>(reader.choice("cell_test", kCellTests));
-    options.loop = static_cast<ListLoop>(reader.choice("loop", kLoops));
-    options.on_device = reader.choice("build", kBuilds) == 1;
-    choose_producer(info, reader, options);
-    if (options.producer == ProducerKind::library && !options.on_device) refuse_papers_switches(info, reader);
-    options.heuristic = static_cast<paper::Heuristic>(reader.choice("heuristic", kHeuristics));
-    options.slice_formula = static_cast<paper::SliceFormula>(reader.choice("listing4", kListing4));
-    options.sort_key = static_cast<paper::SortKey>(reader.choice("sort_key", kSortKeys));
-    options.sort_scope = static_cast<paper::SortScope>(reader.choice("sort", kSorts));
-    options.tree_build = static_cast<paper::TreeBuild>(reader.choice("tree", kTrees));
-    options.tree_entry = static_cast<paper::TreeEntry>(reader.choice("entry", kEntries));
-    options.list_bounds = static_cast<paper::ListBounds>(reader.choice("list_bounds", kListBounds));
-    if (options.on_device) refuse_hosts_switches(info, reader, options);
-    refuse_unused_slices(info, reader, options);
+    read_builder(info, reader, options);
+    read_papers_switches(info, reader, options);
     read_walk(info, reader, options);
     if (options.slice_near && options.slice_far && !(*options.slice_near < *options.slice_far))
         throw InputError(fmt::format("{}: option slice_near={}: must be below slice_far={}", info.name,
