@@ -38,11 +38,9 @@ void refuse_papers_switches(const TechniqueInfo& info, const OptionReader& reade
 }
 
 // What the passes on the device have no form of.
-void refuse_hosts_switches(const TechniqueInfo& info, const OptionReader& reader, const StructureOptions& options) {
+void refuse_hosts_switches(const TechniqueInfo& info, const OptionReader& reader) {
     for (const char* key : {"producer", "cell_test", "tree", "entry"})
         if (reader.given(key)) throw InputError(fmt::format("{}: option {}: not with build=device", info.name, key));
-    if (options.heuristic == paper::Heuristic::expected_cost)
-        throw InputError(fmt::format("{}: option heuristic=d: not with build=device", info.name));
 }
 
 // A tile's tree has slices only where its walk begins at one.
@@ -80,7 +78,7 @@ void read_papers_switches(const TechniqueInfo& info, const OptionReader& reader,
     options.tree_build = static_cast<paper::TreeBuild>(reader.choice("tree", kTrees));
     options.tree_entry = static_cast<paper::TreeEntry>(reader.choice("entry", kEntries));
     options.list_bounds = static_cast<paper::ListBounds>(reader.choice("list_bounds", kListBounds));
-    if (options.on_device) refuse_hosts_switches(info, reader, options);
+    if (options.on_device) refuse_hosts_switches(info, reader);
     refuse_unused_slices(info, reader, options);
 }
 

@@ -2,6 +2,7 @@
 // do.
 
 #include "lab/scene/error.h"
+#include "lab/techniques/device/depth_slices.h"
 #include "lab/techniques/device_build/device_build.h"
 #include "lab/techniques/device_build/grid_references.h"
 #include "lab/techniques/host_structure.h"
@@ -11,6 +12,7 @@
 #include "tests/parity/techniques_fixture.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace manylights::lab {
@@ -46,6 +48,7 @@ std::vector<Variant> variants() {
             {"hybrid", "hybrid_light_trees", on_device()},
             {"hybrid b", "hybrid_light_trees", on_device({{"heuristic", "b"}, {"paths", "three"}})},
             {"hybrid c", "hybrid_light_trees", on_device({{"heuristic", "c"}, {"sort_key", "near"}})},
+            {"hybrid d", "hybrid_light_trees", on_device({{"heuristic", "d"}})},
             {"hybrid e", "hybrid_light_trees", on_device({{"heuristic", "e"}, {"leaf_size", "2"}, {"lds", "on"}})},
             {"hybrid lists", "hybrid_light_trees", on_device({{"heuristic", "lists"}, {"list_bounds", "lights"}})},
             {"hybrid of records", "hybrid_light_trees", on_device({{"lights", "duplicated"}, {"slice_count", "1"}})}};
@@ -143,6 +146,23 @@ TEST_F(DeviceBuildTest, is_exact_for_lights_that_are_everywhere_or_in_one_place)
     expect_exact(view, "a huge light among tiny ones");
     for (Light& light : view.lights) light.sphere.range = 0.0f;
     expect_exact(view, "no light in view");
+}
+
+// Points at the slices' edges as well, by the very floats that the shaders compare.
+TEST_F(DeviceBuildTest, is_exact_for_lights_that_end_at_points_and_points_at_edges_of_slices) {
+    View view = made_view(device(), 97, 60, 0);
+    const SliceEdges edges = exponential_slices(5.0f, view.scene.view_extent, 16);
+    for (std::size_t pixel = 0; pixel < view.positions.size(); ++pixel) {
+        PointPosition& point = view.positions[pixel];
+        if (point.depth == 0.0f || pixel % 2 == 0) continue;
+        const float edge = edges[1 + pixel / 2 % 15];
+        const float depth = pixel % 3 == 0 ? edge : std::nextafter(edge, pixel % 3 == 1 ? 0.0f : kInfinity);
+        point.position *= depth / point.depth;
+        point.depth = depth;
+    }
+    view.points.positions().upload(view.positions);
+    add_lights_that_end_at_points(view);
+    expect_exact(view, "lights that end at points");
 }
 
 // More lights in a cell than a leaf counts and than one tree's leaves hold.
@@ -248,6 +268,24 @@ TEST_F(DeviceBuildTest, does_the_work_of_the_papers_pipeline) {
     }
 }
 
+// Each heuristic chooses as the host's does, but for cells on the verge: measured by the tests and the nodes of all.
+TEST_F(DeviceBuildTest, chooses_trees_as_the_papers_pipeline_does) {
+    View view = made_view(device(), 97, 60, 3000);
+    for (Light& light : view.lights) light.sphere.range *= 0.5f;
+    std::vector<double> nodes;
+    for (const char* heuristic : {"a", "b", "c", "d", "e"}) {
+        const OptionValues options{{"heuristic", heuristic}, {"tile_size", "16"}, {"leaf_size", "1"}};
+        OptionValues on_host = options;
+        on_host.emplace_back("producer", "paper");
+        const WorkSummary expected = work(view, "hybrid_light_trees", on_host),
+                          got = work(view, "hybrid_light_trees", on_device(options));
+        EXPECT_NEAR(got.nodes_mean, expected.nodes_mean, 0.03 * expected.nodes_mean) << heuristic;
+        EXPECT_NEAR(got.tested_mean, expected.tested_mean, 0.03 * expected.tested_mean) << heuristic;
+        nodes.push_back(got.nodes_mean);
+    }
+    for (const std::size_t other : {0, 1, 3}) EXPECT_NE(nodes[other], nodes[4]) << "not every cell gets a tree";
+}
+
 TEST_F(DeviceBuildTest, follows_its_options) {
     const View view = made_view(device(), 97, 60, 3000);
     const auto tested = [&](const char* technique, const OptionValues& options) {
@@ -262,6 +300,7 @@ TEST_F(DeviceBuildTest, follows_its_options) {
     EXPECT_LT(tested(hybrid, {{"heuristic", "e"}}), tested(hybrid, {}));
     EXPECT_LE(tested(hybrid, {{"heuristic", "c"}}), tested(hybrid, {}));
     EXPECT_NE(tested(hybrid, {{"heuristic", "b"}}), tested(hybrid, {}));
+    EXPECT_LT(tested(hybrid, {{"heuristic", "d"}}), lists);
     EXPECT_GT(tested("clustered", {{"listing4", "printed"}}), lists);
     EXPECT_LT(tested("clustered", {{"tile_size", "16"}}), lists);
     EXPECT_LT(tested("clustered", {{"slice_count", "64"}}), lists);

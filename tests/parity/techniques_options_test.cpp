@@ -116,7 +116,7 @@ TEST_F(TechniquesTest, options_that_contradict_each_other_are_refused) {
     for (const char* key : {"slice_count", "slice_near", "slice_far"})
         for (const OptionValues& options : {OptionValues{{key, "4"}}, OptionValues{{key, "4"}, {"build", "device"}}})
             expect_words(refusal(device(), "tiled_light_trees", options), {"tiled_light_trees", key, "entry=slice"});
-    for (const auto& [key, value] : OptionValues{{"producer", "paper"}, {"tree", "top_down"}, {"heuristic", "d"}})
+    for (const auto& [key, value] : OptionValues{{"producer", "paper"}, {"tree", "top_down"}})
         expect_words(refusal(device(), "hybrid_light_trees", {{"build", "device"}, {key, value}}),
                      {"hybrid_light_trees", key, "not with build=device"});
     expect_words(refusal(device(), "tiled_light_trees", {{"build", "device"}, {"entry", "slice"}}),

@@ -8,6 +8,9 @@ namespace manylights::lab {
 
 namespace {
 
+constexpr std::uint32_t kCostCode[] =
+#include "trees_cost.comp.inc"
+    ;
 constexpr std::uint32_t kSizeCode[] =
 #include "trees_size.comp.inc"
     ;
@@ -30,21 +33,24 @@ struct BuildPush {
 } // namespace
 
 CellTrees::CellTrees(gpu::Device& device, const StructureOptions& options)
-    : device_(device), leaf_size_(options.leaf_size), prefix_sum_(device),
+    : device_(device), leaf_size_(options.leaf_size),
+      asks_cost_(options.kind == StructureKind::hybrid && options.heuristic == paper::Heuristic::expected_cost),
+      prefix_sum_(device), cost_pipeline_(device, {"costs of trees", kCostCode, 8, sizeof(SizePush), {}}),
       size_pipeline_(device, {"nodes of cells, their number",
                               kSizeCode,
-                              9,
+                              10,
                               sizeof(SizePush),
                               {static_cast<std::uint32_t>(options.heuristic), options.kind == StructureKind::hybrid}}),
       build_pipeline_(
           device,
           {"nodes of cells", kBuildCode, 8, sizeof(BuildPush), {static_cast<std::uint32_t>(options.list_bounds)}}),
-      kinds_(device, "kinds of cells"), counts_(device, "nodes of each cell"), places_(device, "places of nodes"),
-      total_(device, "number of nodes"), nodes_(device, "nodes") {}
+      costs_(device, "costs of trees"), kinds_(device, "kinds of cells"), counts_(device, "nodes of each cell"),
+      places_(device, "places of nodes"), total_(device, "number of nodes"), nodes_(device, "nodes") {}
 
 double CellTrees::build(const CellGrid& grid, const VisibleLights& lights, const DepthOrder& order,
                         const GridReferences& references, const DepthEnds& ends) {
     for (FittedBuffer* buffer : {&kinds_, &counts_, &places_}) buffer->fit(grid.cell_count() * kWord);
+    costs_.fit((asks_cost_ ? grid.cell_count() : 1) * kWord);
     total_.fit(kWord);
     prefix_sum_.reserve(static_cast<std::uint32_t>(grid.cell_count()));
     const std::vector<gpu::Binding> bindings{
@@ -58,14 +64,18 @@ double CellTrees::build(const CellGrid& grid, const VisibleLights& lights, const
 double CellTrees::find_sizes(const CellGrid& grid, const std::vector<gpu::Binding>& references,
                              const gpu::Buffer& farthest, const DepthEnds& ends) {
     const auto cell_count = static_cast<std::uint32_t>(grid.cell_count());
-    std::vector<gpu::Binding> bindings = references;
-    for (const gpu::Buffer* buffer :
-         {&grid.slice_edges, &farthest, &std::as_const(kinds_).buffer(), &std::as_const(counts_).buffer()})
-        bindings.push_back({*buffer});
+    const SizePush push{cell_count, grid.tiles.tile_count(), leaf_size_, ends};
+    std::vector<gpu::Binding> inputs = references;
+    inputs.push_back({grid.slice_edges});
+    inputs.push_back({farthest});
+    std::vector<gpu::Binding> cost_bindings = inputs, size_bindings = inputs;
+    cost_bindings.push_back({costs_.buffer()});
+    for (const FittedBuffer* buffer : {&kinds_, &counts_, &costs_}) size_bindings.push_back({buffer->buffer()});
     gpu::Commands commands(device_);
     const std::uint32_t start = commands.timestamp();
-    commands.dispatch(size_pipeline_, bindings, SizePush{cell_count, grid.tiles.tile_count(), leaf_size_, ends},
-                      spread_groups(gpu::group_count(cell_count, kGroupSize)));
+    if (asks_cost_) commands.dispatch(cost_pipeline_, cost_bindings, push, spread_groups(cell_count));
+    commands.barrier();
+    commands.dispatch(size_pipeline_, size_bindings, push, spread_groups(gpu::group_count(cell_count, kGroupSize)));
     prefix_sum_.record(commands, counts_.buffer(), places_.buffer(), cell_count, total_.buffer());
     const std::uint32_t end = commands.timestamp();
     commands.submit_and_wait("nodes of cells, their number");

@@ -31,9 +31,10 @@ class CellTrees {
 
     gpu::Device& device_;
     std::uint32_t leaf_size_;
+    bool asks_cost_; ///< of every cell's tree, before it is decided on
     gpu::PrefixSum prefix_sum_;
-    gpu::ComputePipeline size_pipeline_, build_pipeline_;
-    FittedBuffer kinds_, counts_, places_, total_, nodes_;
+    gpu::ComputePipeline cost_pipeline_, size_pipeline_, build_pipeline_;
+    FittedBuffer costs_, kinds_, counts_, places_, total_, nodes_;
 };
 
 } // namespace manylights::lab

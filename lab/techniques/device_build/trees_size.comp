@@ -7,26 +7,24 @@ layout(local_size_x = 64) in;
 // In the order of paper::Heuristic. Of trees without slices always, with one leaf as well.
 layout(constant_id = 0) const uint kHeuristic = 0u;
 layout(constant_id = 1) const uint kIsHybrid = 1u;
-const uint kClippedHalfExtent = 0u, kDiameterExtent = 1u, kAlwaysTree = 4u, kAlwaysList = 5u;
+const uint kClippedHalfExtent = 0u, kDiameterExtent = 1u, kExpectedCost = 3u, kAlwaysTree = 4u, kAlwaysList = 5u;
+const float kNodeCost = 0.5; // as reference/paper/tree.cpp has it
 
 layout(std430, set = 0, binding = 5) readonly buffer SliceEdges { float d[]; } slice_edges;
 layout(std430, set = 0, binding = 6) readonly buffer Farthest { uint d[]; } farthest;
 layout(std430, set = 0, binding = 7) writeonly buffer Kinds { uint d[]; } kinds;
 layout(std430, set = 0, binding = 8) writeonly buffer NodeCounts { uint d[]; } node_counts;
+layout(std430, set = 0, binding = 9) readonly buffer Costs { float d[]; } costs; // of trees, for kExpectedCost alone
 layout(push_constant) uniform Push {
     uint cell_count, tile_count, leaf_size;
     float near_depth, slice_far;
 };
 
-// The depths of a slice that are assumed to be occupied: the first begins at the near plane, and none reaches beyond
-// slice_far or the farthest light.
-vec2 extent_of(uint slice) {
-    float end = min(max(slice_far, uintBitsToFloat(farthest.d[0])), 3e38);
-    return vec2(max(slice_edges.d[slice], near_depth), min(slice_edges.d[slice + 1u], end));
-}
+#include "lab/techniques/device_build/slice_extent.glsl"
 
 bool prefers_tree(uint cell, uint count) {
     if (kHeuristic == kAlwaysTree || kHeuristic == kAlwaysList) return kHeuristic == kAlwaysTree;
+    if (kHeuristic == kExpectedCost) return costs.d[cell] < kNodeCost + float(count);
     vec2 extent = extent_of(cell / tile_count);
     float sum = 0.0;
     for (uint i = places.d[cell]; i < places.d[cell] + count; ++i) {
