@@ -120,7 +120,6 @@ std::vector<Variant> structure_variants() {
              {{"cell_test", "tight"}, {"loop", "wave"}, {"tile_size", "8"}, {"slice_count", "64"}}},
             {"tiled_light_trees_paper", "tiled_light_trees", {{"producer", "paper"}}},
             {"hybrid_light_trees_paper", "hybrid_light_trees", {{"producer", "paper"}}},
-            {"clustered_device", "clustered", {{"build", "device"}}},
             {"tiled_light_trees_device", "tiled_light_trees", {{"build", "device"}, {"lds", "on"}}},
             {"hybrid_light_trees_device",
              "hybrid_light_trees",
