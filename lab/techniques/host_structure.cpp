@@ -1,6 +1,7 @@
 #include "lab/techniques/host_structure.h"
 
 #include "lab/renderer/point_buffer.h"
+#include "lab/techniques/light_records.h"
 
 namespace manylights::lab {
 
@@ -68,12 +69,19 @@ std::optional<std::uint64_t> affecting_reference_of(Query& query, std::size_t pi
     return std::nullopt;
 }
 
+std::vector<std::uint32_t> references_in(const gpu::Buffer& buffer, bool has_records) {
+    if (!has_records) return buffer.download<std::uint32_t>();
+    std::vector<std::uint32_t> references;
+    for (const LightRecord& record : buffer.download<LightRecord>()) references.push_back(record.light);
+    return references;
+}
+
 } // namespace
 
-HostStructure::HostStructure(const StructureBindings& buffers)
+HostStructure::HostStructure(const StructureBindings& buffers, bool has_records)
     : view(buffers[0]->download<MlView>().at(0)), slice_edges(buffers[1]->download<float>()),
       cells(buffers[2]->download<MlCell>()), nodes(buffers[3]->download<MlNode>()),
-      references(buffers[4]->download<std::uint32_t>()) {}
+      references(references_in(*buffers[4], has_records)) {}
 
 std::vector<CellClass> classify_tiles(const HostStructure& structure, std::span<const PointPosition> points) {
     const MlView& view = structure.view;

@@ -13,7 +13,8 @@ namespace manylights::lab {
 struct PointPosition;
 
 struct HostStructure {
-    explicit HostStructure(const StructureBindings& buffers);
+    /// has_records: lights are in the place of the references to them.
+    explicit HostStructure(const StructureBindings& buffers, bool has_records = false);
 
     MlView view{};
     std::vector<float> slice_edges;

@@ -37,6 +37,10 @@ paper::Options paper_options(const StructureOptions& options, const SliceRange& 
     result.slice_formula = options.slice_formula;
     result.heuristic = options.heuristic;
     result.sort_key = options.sort_key;
+    result.sort_scope = options.sort_scope;
+    result.tree_build = options.tree_build;
+    result.tree_entry = options.tree_entry;
+    result.list_bounds = options.list_bounds;
     result.cell_test = options.cell_test;
     result.time_stages = true;
     return result;

@@ -76,11 +76,12 @@ void load_point(inout Pixel pixel, uint index) {
 
 #if defined(MANYLIGHTS_LOG)
 void shade_light(inout Pixel pixel, uint light, vec4 sphere) { touch(kTouchAffecting, light); }
+void shade_colored_light(inout Pixel pixel, uint light, vec4 sphere, vec3 color) { touch(kTouchAffecting, light); }
 #else
 // A light that affects the pixel's point. N.L > 0 is decided with the stored normal and the direction as it is, summed in
 // this order, so that every processor decides alike.
-void shade_light(inout Pixel pixel, uint light, vec4 sphere) {
-    vec3 radiance = light_radiance(pixel.surface, sphere.xyz, sphere.w, colors.d[light].rgb);
+void shade_colored_light(inout Pixel pixel, uint light, vec4 sphere, vec3 color) {
+    vec3 radiance = light_radiance(pixel.surface, sphere.xyz, sphere.w, color);
 #if defined(MANYLIGHTS_RECORD)
     precise vec3 to_light = sphere.xyz - pixel.surface.position;
     vec3 normal = pixel.surface.normal;
@@ -89,6 +90,10 @@ void shade_light(inout Pixel pixel, uint light, vec4 sphere) {
 #else
     pixel.radiance += radiance;
 #endif
+}
+
+void shade_light(inout Pixel pixel, uint light, vec4 sphere) {
+    shade_colored_light(pixel, light, sphere, colors.d[light].rgb);
 }
 #endif
 

@@ -16,7 +16,7 @@ constexpr std::uint32_t kPoison = 0xCDCDCDCD;
 // Output of one dispatch: below the 128 MiB that Vulkan promises for a binding, and a 1920 x 1080 picture in one piece.
 constexpr std::uint64_t kOutputBytes = std::uint64_t{32} << 20;
 
-const std::vector<std::uint32_t> kNoConstants, kWaveOf64{64}, kWaveOf32{32};
+const std::vector<std::uint32_t> kWaveOf64{64}, kWaveOf32{32};
 
 // Rows of one dispatch: whole groups, or the image's rest.
 std::uint32_t band_rows(const Frame& frame, std::uint64_t bytes_per_pixel) {
@@ -43,7 +43,8 @@ ShadingPass::ShadingPass(gpu::Device& device, const PassShaders& shaders, LightS
     : device_(device), split_(split),
       record_pipeline_(make_pipeline(shaders, "record", shaders.record, shaders.constants)),
       shade_pipeline_(make_pipeline(shaders, "shade", shaders.shade, shaders.constants)),
-      log_pipeline_(make_pipeline(shaders, "log", shaders.log, shaders.log_has_wave_size ? kWaveOf64 : kNoConstants)) {
+      log_pipeline_(
+          make_pipeline(shaders, "log", shaders.log, shaders.log_has_wave_size ? kWaveOf64 : shaders.constants)) {
     if (shaders.log_has_wave_size) log_32_pipeline_ = make_pipeline(shaders, "log", shaders.log, kWaveOf32);
 }
 

@@ -25,9 +25,9 @@ struct PassShaders {
     std::string name;
     std::span<const std::uint32_t> record, shade, log;
     std::uint32_t structure_buffers = 0;
-    std::vector<std::uint32_t> constants{}; ///< specialization constants of record and shade
-    /// The lanes of a wave work together, so that what they touch depends on its size: constant 0 of the log form,
-    /// which is run for waves of 64 and of 32.
+    std::vector<std::uint32_t> constants{}; ///< specialization constants
+    /// The lanes of a wave work together, so that what they touch depends on its size: the one constant of the log
+    /// form, which is run for waves of 64 and of 32.
     bool log_has_wave_size = false;
 };
 

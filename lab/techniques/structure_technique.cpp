@@ -1,11 +1,11 @@
 #include "lab/techniques/structure_technique.h"
 
 #include "lab/renderer/point_buffer.h"
+#include "lab/techniques/device_build/device_build.h"
 #include "lab/techniques/host_structure.h"
+#include "lab/techniques/light_records.h"
 
 #include <algorithm>
-#include <chrono>
-#include <numeric>
 
 namespace manylights::lab {
 
@@ -21,15 +21,22 @@ constexpr std::uint32_t kLogCode[] =
 #include "cursor_log.comp.inc"
     ;
 
-std::unique_ptr<Producer> make_producer(const StructureOptions& options) {
-    return options.producer == ProducerKind::paper ? make_paper_producer(options) : make_library_producer(options);
-}
+constexpr std::uint32_t kWalkRecordCode[] =
+#include "tree_walk_record.comp.inc"
+    ;
+constexpr std::uint32_t kWalkShadeCode[] =
+#include "tree_walk_shade.comp.inc"
+    ;
+constexpr std::uint32_t kWalkLogCode[] =
+#include "tree_walk_log.comp.inc"
+    ;
 
-template <typename Work>
-double milliseconds_of(Work&& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+// 16 KiB of a workgroup's memory, of which Vulkan promises as much.
+constexpr std::uint32_t kCopiedNodes = 1024;
+
+std::unique_ptr<StructureBuild> make_build(gpu::Device& device, const std::string& name,
+                                           const StructureOptions& options) {
+    return options.on_device ? make_device_build(device, name, options) : make_host_build(device, options);
 }
 
 } // namespace
@@ -42,17 +49,27 @@ TechniqueInfo structure_technique_info(const char* name, const char* summary, St
     return info;
 }
 
-std::uint64_t BuiltStructure::bytes() const {
-    return std::accumulate(buffers.begin(), buffers.end(), std::uint64_t{0},
-                           [](std::uint64_t sum, const gpu::Buffer* buffer) { return sum + buffer->bytes(); });
-}
-
 QueryShaders cursor_shaders() { return {kRecordCode, kShadeCode, kLogCode}; }
 
+QueryShaders tree_shaders(const StructureOptions& options) {
+    if (!options.needs_tree_walk()) return cursor_shaders();
+    return {kWalkRecordCode,
+            kWalkShadeCode,
+            kWalkLogCode,
+            {options.has_three_paths, options.copies_trees ? kCopiedNodes : 1, options.has_records}};
+}
+
 StructureTechnique::StructureTechnique(gpu::Device& device, TechniqueInfo info, StructureKind kind,
-                                       const OptionValues& values, const QueryShaders& shaders)
-    : device_(device), info_(std::move(info)), producer_(make_producer(read_structure_options(info_, kind, values))),
-      buffers_(device),
+                                       const OptionValues& values)
+    : StructureTechnique(device, info, read_structure_options(info, kind, values)) {}
+
+StructureTechnique::StructureTechnique(gpu::Device& device, TechniqueInfo info, const StructureOptions& options)
+    : StructureTechnique(device, std::move(info), options, tree_shaders(options)) {}
+
+StructureTechnique::StructureTechnique(gpu::Device& device, TechniqueInfo info, const StructureOptions& options,
+                                       const QueryShaders& shaders)
+    : device_(device), info_(std::move(info)), has_records_(options.has_records),
+      build_(make_build(device, info_.name, options)),
       pass_(device,
             {info_.name, shaders.record, shaders.shade, shaders.log, 5, shaders.constants, shaders.log_has_wave_size},
             LightSplit::none) {}
@@ -61,28 +78,16 @@ void StructureTechnique::prepare(const Frame& frame) {
     lights_.emplace(device_, frame);
     stats_ = {};
     rebuild(frame);
-    stats_.visible_lights = producer_->stats().visible_lights;
+    stats_.visible_lights = build_->visible_lights();
     stats_.references = structure_.references;
     stats_.structure_bytes = structure_.bytes();
 }
 
-// The time is the producer's alone: the lab's own allocation and its patterns are left out.
 void StructureTechnique::rebuild(const Frame& frame) {
-    ManylightsSizes sizes{};
-    const double plan_ms = milliseconds_of([&] { sizes = producer_->plan(frame); });
-    buffers_.reserve(sizes);
-    const double write_ms = milliseconds_of([&] { producer_->write(buffers_.targets()); });
-    buffers_.finish();
-    add_times(plan_ms, write_ms);
-    structure_ = refine(frame, {buffers_.bindings(), producer_->stats().references});
-}
-
-void StructureTechnique::add_times(double plan_ms, double write_ms) {
-    stats_.build_ms.push_back(plan_ms + write_ms);
-    std::vector<StageTime> stages = producer_->stages();
-    if (stages.empty()) stages.push_back({"plan", plan_ms});
-    stages.push_back({"write", write_ms});
-    for (const StageTime& stage : stages) add_stage(stage.name, stage.ms);
+    const BuiltStructure built = build_->build(frame, lights_.value());
+    stats_.build_ms.push_back(build_->milliseconds());
+    for (const StageTime& stage : build_->stages()) add_stage(stage.name, stage.ms);
+    structure_ = refine(frame, built);
 }
 
 void StructureTechnique::add_stage(const std::string& name, double ms) {
@@ -110,17 +115,24 @@ std::optional<double> StructureTechnique::references_in_range(const Frame& frame
 }
 
 std::vector<CellClass> StructureTechnique::classify(const Frame& frame) {
-    return classify_tiles(HostStructure(structure_.buffers), frame.points.download_positions());
+    return classify_tiles(HostStructure(structure_.buffers, has_records_), frame.points.download_positions());
 }
 
 // The reference becomes one to the padding light behind the last, which affects nothing.
 bool StructureTechnique::remove_one_reference(const Frame& frame) {
     const LightStream& lights = lights_.value().stream;
-    const auto reference =
-        find_affecting_reference(HostStructure(structure_.buffers), frame.points.download_positions(), lights);
+    const auto reference = find_affecting_reference(HostStructure(structure_.buffers, has_records_),
+                                                    frame.points.download_positions(), lights);
+    if (!reference) return false;
     const std::uint32_t padding = lights.light_count();
-    if (reference) structure_.buffers[4]->upload(std::span(&padding, 1), *reference * sizeof padding);
-    return reference.has_value();
+    gpu::Buffer& references = *structure_.buffers[4];
+    if (has_records_) {
+        const LightRecord record = light_record(lights, padding);
+        references.upload(std::span(&record, 1), *reference * sizeof record);
+    } else {
+        references.upload(std::span(&padding, 1), *reference * sizeof padding);
+    }
+    return true;
 }
 
 } // namespace manylights::lab

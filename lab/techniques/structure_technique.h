@@ -1,9 +1,9 @@
 #pragma once
-// A technique whose structure has the library's format: a producer on the CPU, the common shading pass with a query of
-// the library. The techniques of this kind differ in their options, in what the producer builds and in their query.
+// A technique whose structure has the library's format: a build on the CPU or on the device, the common shading pass
+// with a query of the library. The techniques of this kind differ in their options, in what is built and in their
+// query.
 
-#include "lab/techniques/shading_pass.h"
-#include "lab/techniques/structure_buffers.h"
+#include "lab/techniques/structure_build.h"
 
 #include <optional>
 
@@ -18,20 +18,16 @@ struct QueryShaders {
 };
 /// The library's per-pixel cursor: cursor.glsl.
 QueryShaders cursor_shaders();
-
-/// A structure as the passes read it.
-struct BuiltStructure {
-    StructureBindings buffers{};
-    std::uint64_t references = 0;
-
-    std::uint64_t bytes() const;
-};
+/// The cursor, or where the options ask for what it has not: tree_walk.glsl.
+QueryShaders tree_shaders(const StructureOptions& options);
 
 class StructureTechnique : public Technique {
   public:
     /// info lists the options of the kind, and those that the technique reads itself.
-    StructureTechnique(gpu::Device& device, TechniqueInfo info, StructureKind kind, const OptionValues& values,
-                       const QueryShaders& shaders = cursor_shaders());
+    StructureTechnique(gpu::Device& device, TechniqueInfo info, StructureKind kind, const OptionValues& values);
+    StructureTechnique(gpu::Device& device, TechniqueInfo info, const StructureOptions& options);
+    StructureTechnique(gpu::Device& device, TechniqueInfo info, const StructureOptions& options,
+                       const QueryShaders& shaders);
 
     const TechniqueInfo& info() const override { return info_; }
     void prepare(const Frame& frame) override;
@@ -53,12 +49,10 @@ class StructureTechnique : public Technique {
     const BuiltStructure& structure() const { return structure_; }
 
   private:
-    void add_times(double plan_ms, double write_ms);
-
     gpu::Device& device_;
     TechniqueInfo info_;
-    std::unique_ptr<Producer> producer_;
-    StructureBuffers buffers_;
+    bool has_records_;
+    std::unique_ptr<StructureBuild> build_;
     BuiltStructure structure_;
     std::optional<FrameLights> lights_;
     ShadingPass pass_;

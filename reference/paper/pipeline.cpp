@@ -29,10 +29,28 @@ void prefetch([[maybe_unused]] const void* address) {
 #endif
 }
 
-MlUint structure_code(Structure structure) {
-    if (structure == Structure::clustered) return ML_STRUCTURE_LISTS;
-    return structure == Structure::tree ? ML_STRUCTURE_TREES : ML_STRUCTURE_HYBRID;
+bool has_entries(const Options& options) {
+    return options.structure == Structure::tree && options.tree_entry == TreeEntry::per_slice;
 }
+
+// A cell with a range of nodes per slice is what a hybrid has.
+MlUint structure_code(const Options& options) {
+    if (options.structure == Structure::clustered) return ML_STRUCTURE_LISTS;
+    return options.structure == Structure::tree && !has_entries(options) ? ML_STRUCTURE_TREES : ML_STRUCTURE_HYBRID;
+}
+
+bool sorts_all(const Options& options) {
+    return options.structure != Structure::clustered && options.sort_scope == SortScope::all_lights;
+}
+
+// Of a light that reaches to both infinities the middle is no number, and any key will do.
+std::uint32_t cell_sort_key(const CellLight& light, SortKey key) {
+    const float depth = key == SortKey::near_depth ? light.min_depth : light.min_depth + light.max_depth;
+    return sort_key(depth == depth ? depth : 0.0f);
+}
+
+// Fewer pairs than that are sorted sooner by comparison than by digits.
+constexpr std::uint32_t kFewPairs = 512;
 
 } // namespace
 
@@ -58,6 +76,7 @@ const Buffers& PaperPipeline::build(std::span<const ManylightsView> views, const
                                     const Options& options) {
     check(options, views);
     slices_.update(options, options.structure == Structure::tree ? 1 : options.slice_count);
+    entry_slices_.update(options, has_entries(options) ? options.slice_count : 1);
     views_.clear();
     tree_builder_.clear();
     cell_count_ = node_count_ = reference_count_ = 0;
@@ -65,7 +84,7 @@ const Buffers& PaperPipeline::build(std::span<const ManylightsView> views, const
     StageClock clock(options.time_stages);
     for (const ManylightsView& view : views) build_view(view, lights, options, clock);
     buffers_.views = views_;
-    buffers_.slice_edges = slices_.edges();
+    buffers_.slice_edges = has_entries(options) ? entry_slices_.edges() : slices_.edges();
     buffers_.cells = {cells_.data(), cell_count_};
     buffers_.nodes = {nodes_.data(), node_count_};
     buffers_.references = {references_.data(), reference_count_};
@@ -77,7 +96,7 @@ void PaperPipeline::build_view(const ManylightsView& view, const ManylightsLight
     const Camera camera = read_camera(view);
     const Grid grid = make_grid(camera, options.tile_px);
     place_view(camera, grid, options);
-    const std::uint32_t cell_count = views_.back().cell_count;
+    const std::uint32_t cell_count = grid.tiles_x * grid.tiles_y * slices_.count();
     const bool has_trees = options.structure != Structure::clustered;
 
     const CullCounts counts = cull(camera, grid.widening_px, lights, culled_);
@@ -85,7 +104,7 @@ void PaperPipeline::build_view(const ManylightsView& view, const ManylightsLight
     buffers_.ignored_lights = counts.ignored;
     clock.lap(buffers_.times.cull);
 
-    if (has_trees) sort_lights(counts.kept, options); // lists need no order
+    if (sorts_all(options)) sort_lights(counts.kept, options); // lists need no order
     clock.lap(buffers_.times.sort);
 
     bound_lights(camera, grid, counts.kept, options);
@@ -95,12 +114,17 @@ void PaperPipeline::build_view(const ManylightsView& view, const ManylightsLight
     options.cell_test == CellTest::tight ? scatter_tight(camera, grid) : scatter_boxes(grid);
     bin_lights(cells, cell_count, !has_trees);
     clock.lap(buffers_.times.bin);
+    if (has_trees && !sorts_all(options)) sort_cells(cells, cell_count, options.sort_key);
+    clock.lap(buffers_.times.sort);
 
     if (has_trees) build_trees(camera, options, cells, clock);
+    if (has_entries(options)) enter_slices(cells);
+    clock.lap(buffers_.times.pack);
 }
 
 void PaperPipeline::place_view(const Camera& camera, const Grid& grid, const Options& options) {
-    const std::uint64_t cell_count = std::uint64_t{grid.tiles_x} * grid.tiles_y * slices_.count();
+    const SliceTable& slices = has_entries(options) ? entry_slices_ : slices_;
+    const std::uint64_t cell_count = std::uint64_t{grid.tiles_x} * grid.tiles_y * slices.count();
     if (cell_count_ + cell_count > kMost) throw std::length_error("more than 2^32 - 1 cells");
     MlView view{};
     view.width = camera.width;
@@ -108,13 +132,13 @@ void PaperPipeline::place_view(const Camera& camera, const Grid& grid, const Opt
     view.tile_px = grid.tile_px;
     view.tiles_x = grid.tiles_x;
     view.tiles_y = grid.tiles_y;
-    view.slice_count = slices_.count();
+    view.slice_count = slices.count();
     view.slice_offset = 0;
     view.cell_offset = std::uint32_t(cell_count_);
     view.cell_count = std::uint32_t(cell_count);
-    view.structure = structure_code(options.structure);
-    view.slice_scale = slices_.guess_scale();
-    view.slice_bias = slices_.guess_bias();
+    view.structure = structure_code(options);
+    view.slice_scale = slices.guess_scale();
+    view.slice_bias = slices.guess_bias();
     views_.push_back(view);
     cells_.require(cell_count_ + cell_count, cell_count_);
     cell_count_ += cell_count;
@@ -133,7 +157,7 @@ void PaperPipeline::sort_lights(std::uint32_t count, const Options& options) {
 
 void PaperPipeline::bound_lights(const Camera& camera, const Grid& grid, std::uint32_t count, const Options& options) {
     constexpr std::uint32_t kAhead = 16; // sorted lights lie anywhere: fetch them in time
-    const bool sorted = options.structure != Structure::clustered, tight = options.cell_test == CellTest::tight;
+    const bool sorted = sorts_all(options), tight = options.cell_test == CellTest::tight;
     const CulledLight* culled = culled_.data();
     // One beyond: an empty box is written, too.
     CellBox* boxes = boxes_.require(count + std::size_t{1});
@@ -186,6 +210,24 @@ void PaperPipeline::bin_lights(MlCell* cells, std::uint32_t cell_count, bool as_
     for (std::uint32_t cell = 0; cell < cell_count; ++cell) buffers_.list_cells += cells[cell].count != 0;
 }
 
+void PaperPipeline::sort_cells(const MlCell* cells, std::uint32_t cell_count, SortKey key) {
+    const CellLight* cell_lights = cell_lights_.data();
+    for (std::uint32_t cell = 0; cell < cell_count; ++cell) {
+        const std::uint32_t count = cells[cell].count;
+        std::uint32_t* places = references_.data() + cells[cell].first;
+        SortPair* pairs = sort_.pairs(count);
+        for (std::uint32_t i = 0; i < count; ++i) pairs[i] = {cell_sort_key(cell_lights[places[i]], key), places[i]};
+        const SortPair* sorted = pairs;
+        if (count < kFewPairs)
+            std::sort(pairs, pairs + count, [](const SortPair& a, const SortPair& b) {
+                return a.key != b.key ? a.key < b.key : a.rank < b.rank;
+            });
+        else
+            sorted = sort_.sort(count);
+        for (std::uint32_t i = 0; i < count; ++i) places[i] = sorted[i].rank;
+    }
+}
+
 // Fetches the cell's depth ranges, and turns its references from places into light indices. Neighbours in a cell are
 // neighbours in depth, so this reads a window of the sorted lights.
 CellLights PaperPipeline::take_cell(const MlCell& cell) {
@@ -210,8 +252,9 @@ SliceExtent PaperPipeline::slice_extent(const Camera& camera, const Options& opt
 // One row of tiles at a time, so that the breadth-first nodes are still in the cache when they are packed.
 void PaperPipeline::build_trees(const Camera& camera, const Options& options, MlCell* cells, StageClock& clock) {
     const MlView& view = views_.back();
-    for (std::uint32_t begin = 0; begin < view.cell_count; begin += view.tiles_x) {
-        const SliceExtent extent = slice_extent(camera, options, begin / (view.tiles_x * view.tiles_y));
+    const std::uint32_t tiles = view.tiles_x * view.tiles_y;
+    for (std::uint32_t begin = 0; begin < tiles * slices_.count(); begin += view.tiles_x) {
+        const SliceExtent extent = slice_extent(camera, options, begin / tiles);
         for (std::uint32_t cell = begin; cell < begin + view.tiles_x; ++cell) {
             const CellLights lights = take_cell(cells[cell]);
             cells[cell] = {std::uint32_t(node_count_) + tree_builder_.node_count(), 0};
@@ -225,6 +268,21 @@ void PaperPipeline::build_trees(const Camera& camera, const Options& options, Ml
         tree_builder_.pack(nodes_.require(end, node_count_) + node_count_);
         node_count_ = end;
         clock.lap(buffers_.times.pack);
+    }
+}
+
+// The cells of the first slice are the tiles' own until each is replaced. That slice holds depths in front of the
+// camera plane as well, as for the query.
+void PaperPipeline::enter_slices(MlCell* cells) {
+    const MlView& view = views_.back();
+    const std::uint32_t tiles = view.tiles_x * view.tiles_y;
+    const std::vector<float>& edges = entry_slices_.edges();
+    for (std::uint32_t tile = 0; tile < tiles; ++tile) {
+        const MlCell whole = cells[tile];
+        for (std::uint32_t slice = 0; slice < view.slice_count; ++slice) {
+            const float lower = slice == 0 ? -std::numeric_limits<float>::infinity() : edges[slice];
+            cells[slice * tiles + tile] = entry_in_slice(nodes_.data(), whole, {lower, edges[slice + 1]});
+        }
     }
 }
 

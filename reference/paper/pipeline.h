@@ -54,15 +54,18 @@ class PaperPipeline {
                     StageClock& clock);
     void place_view(const Camera& camera, const Grid& grid, const Options& options);
     void sort_lights(std::uint32_t count, const Options& options);
+    void sort_cells(const MlCell* cells, std::uint32_t cell_count, SortKey key);
     void bound_lights(const Camera& camera, const Grid& grid, std::uint32_t count, const Options& options);
     void scatter_tight(const Camera& camera, const Grid& grid);
     void scatter_boxes(const Grid& grid);
     void bin_lights(MlCell* cells, std::uint32_t cell_count, bool as_indices);
     CellLights take_cell(const MlCell& cell);
     void build_trees(const Camera& camera, const Options& options, MlCell* cells, StageClock& clock);
+    void enter_slices(MlCell* cells);
     SliceExtent slice_extent(const Camera& camera, const Options& options, std::uint32_t slice) const;
 
     SliceTable slices_;
+    SliceTable entry_slices_; ///< of TreeEntry::per_slice, whose trees are the whole tile's
     FlatArray<CulledLight> culled_;
     RadixSort sort_;
     const SortPair* order_ = nullptr;

@@ -32,10 +32,28 @@ MlNode leaf_over(const CellLights& lights, std::uint32_t begin, std::uint32_t en
     return leaf;
 }
 
-// The part of a slice that [min, max] covers: the chance that a depth hits it, if depths are uniform in the slice.
-float hit_chance(const MlNode& node, SliceExtent extent) {
-    const float overlap = std::min(node.max_depth, extent.max) - std::max(node.min_depth, extent.min);
+// The part of a slice that the range covers: the chance that a depth hits it, if depths are uniform in the slice.
+float hit_chance(DepthRange range, SliceExtent extent) {
+    const float overlap = std::min(range.max, extent.max) - std::max(range.min, extent.min);
     return std::max(overlap, 0.0f) / (extent.max - extent.min);
+}
+
+DepthRange join(DepthRange a, DepthRange b) { return {std::min(a.min, b.min), std::max(a.max, b.max)}; }
+
+constexpr DepthRange kNothing{kInfinity, -kInfinity};
+
+// A split leaves at least an eighth of the lights on each side, so that a tree is at most log n / log (8 / 7) deep, and
+// its build O(n log n).
+constexpr std::uint32_t kLeastShare = 8;
+
+// So many lights at most make one top-down tree: it has no more leaves than lights, and each leaf more than an eighth
+// of leaf_size.
+std::uint64_t most_lights_top_down(std::uint32_t leaf_size) {
+    return std::uint64_t{kMaxTreeLeaves} * std::max(leaf_size / kLeastShare, 1u);
+}
+
+bool meets(const MlNode& node, SliceExtent extent) {
+    return node.min_depth < extent.max && node.max_depth >= extent.min;
 }
 
 } // namespace
@@ -75,6 +93,22 @@ bool prefers_tree(Heuristic heuristic, const CellLights& lights, SliceExtent ext
     return sum / float(lights.count) < limit * (extent.max - extent.min);
 }
 
+// Several trees in a row are walked as they are. No leaf outside of the subtree can be hit: on the way down, the
+// sibling that is left behind misses the slice.
+MlCell entry_in_slice(const MlNode* nodes, const MlCell& tile, SliceExtent extent) {
+    MlCell entry = tile;
+    if (tile.count == 0 || ml_node_skip_count(nodes[tile.first].bits) != tile.count) return entry;
+    while (!ml_node_is_leaf(nodes[entry.first].bits)) {
+        const std::uint32_t left = entry.first + 1, left_count = ml_node_skip_count(nodes[left].bits);
+        const std::uint32_t right = left + left_count;
+        const bool meets_left = meets(nodes[left], extent), meets_right = meets(nodes[right], extent);
+        if (meets_left && meets_right) return entry;
+        if (!meets_left && !meets_right) return {entry.first, 0};
+        entry = meets_left ? MlCell{left, left_count} : MlCell{right, ml_node_skip_count(nodes[right].bits)};
+    }
+    return meets(nodes[entry.first], extent) ? entry : MlCell{entry.first, 0};
+}
+
 TreeBuilder::TreeBuilder() {
     for (std::uint32_t levels = 1; levels <= kMaxTreeLevels; ++levels) tables_[levels] = depth_first_table(levels);
 }
@@ -85,12 +119,12 @@ std::uint32_t TreeBuilder::build_cell(const CellLights& lights, SliceExtent exte
     const bool one_leaf = lights.count <= options.leaf_size;
     if (options.structure == Structure::tree) {
         built_tree_ = !one_leaf;
-        add_trees(lights, options.leaf_size);
+        add_trees(lights, extent, options);
         return node_count_ - first_node;
     }
     built_tree_ = !one_leaf && prefers_tree(options.heuristic, lights, extent);
     if (!one_leaf && options.heuristic == Heuristic::expected_cost) {
-        add_trees(lights, options.leaf_size);
+        add_trees(lights, extent, options);
         built_tree_ = expected_cost(first_tree, extent) < kNodeCost + float(lights.count);
         if (!built_tree_) {
             node_count_ = first_node;
@@ -98,7 +132,7 @@ std::uint32_t TreeBuilder::build_cell(const CellLights& lights, SliceExtent exte
             add_list(lights, options);
         }
     } else if (built_tree_) {
-        add_trees(lights, options.leaf_size);
+        add_trees(lights, extent, options);
     } else {
         add_list(lights, options);
     }
@@ -112,23 +146,70 @@ void TreeBuilder::add_list(const CellLights& lights, const Options& options) {
         MlNode leaf{-kInfinity, kInfinity, lights.first + begin, leaf_bits(end - begin)};
         if (options.list_bounds == ListBounds::of_lights) leaf = leaf_over(lights, begin, end);
         scratch_.require(node_count_ + 1, node_count_)[node_count_] = leaf;
-        trees_.push_back({node_count_++, 1});
+        trees_.push_back({node_count_++, 1, 1});
         begin = end;
     }
 }
 
 // More lights than fit the leaves of one tree: several trees in a row.
-void TreeBuilder::add_trees(const CellLights& lights, std::uint32_t leaf_size) {
-    const std::uint64_t most = std::uint64_t(kMaxTreeLeaves) * leaf_size;
+void TreeBuilder::add_trees(const CellLights& lights, SliceExtent extent, const Options& options) {
+    const bool top_down = options.tree_build == TreeBuild::top_down;
+    const std::uint64_t most =
+        top_down ? most_lights_top_down(options.leaf_size) : std::uint64_t(kMaxTreeLeaves) * options.leaf_size;
     for (std::uint64_t begin = 0; begin < lights.count; begin += most) {
         const auto count = std::uint32_t(std::min<std::uint64_t>(lights.count - begin, most));
-        add_tree({lights.first + std::uint32_t(begin), count, lights.ranges + begin}, leaf_size);
+        const CellLights part{lights.first + std::uint32_t(begin), count, lights.ranges + begin};
+        top_down ? add_tree_top_down(part, extent, options.leaf_size) : add_tree_bottom_up(part, options.leaf_size);
     }
+}
+
+void TreeBuilder::add_tree_top_down(const CellLights& lights, SliceExtent extent, std::uint32_t leaf_size) {
+    const std::uint32_t first_node = node_count_;
+    add_subtree(lights, extent, leaf_size);
+    trees_.push_back({first_node, node_count_ - first_node, 0});
+}
+
+void TreeBuilder::add_subtree(const CellLights& lights, SliceExtent extent, std::uint32_t leaf_size) {
+    const std::uint32_t place = node_count_++;
+    scratch_.require(node_count_, place);
+    if (lights.count <= leaf_size) {
+        scratch_.data()[place] = leaf_over(lights, 0, lights.count);
+        scratch_.data()[place].bits |= 1;
+        return;
+    }
+    const std::uint32_t split = best_split(lights, extent);
+    add_subtree({lights.first, split, lights.ranges}, extent, leaf_size);
+    const std::uint32_t right = node_count_;
+    add_subtree({lights.first + split, lights.count - split, lights.ranges + split}, extent, leaf_size);
+    MlNode* nodes = scratch_.data();
+    nodes[place] = parent_of(nodes[place + 1], nodes[right]);
+    nodes[place].bits |= node_count_ - place;
+}
+
+// How many lights go to the left: so that the tests are fewest which a depth can expect if both sides were leaves. The
+// middle, where no other is better.
+std::uint32_t TreeBuilder::best_split(const CellLights& lights, SliceExtent extent) {
+    const std::uint32_t least = std::max(lights.count / kLeastShare, 1u);
+    float* costs = costs_.require(lights.count);
+    DepthRange range = kNothing;
+    for (std::uint32_t i = 0; i < lights.count; ++i) {
+        costs[i] = hit_chance(range, extent) * float(i);
+        range = join(range, lights.ranges[i]);
+    }
+    range = kNothing;
+    for (std::uint32_t i = lights.count; i-- > least;) {
+        range = join(range, lights.ranges[i]);
+        costs[i] += hit_chance(range, extent) * float(lights.count - i);
+    }
+    std::uint32_t best = lights.count / 2;
+    for (std::uint32_t i = least; i <= lights.count - least; ++i)
+        if (costs[i] < costs[best]) best = i;
+    return best;
 }
 
 // Lights are dealt to the leaves in order, as evenly as whole numbers allow; what is left over of the power of two is
 // padding that no depth hits.
-void TreeBuilder::add_tree(const CellLights& lights, std::uint32_t leaf_size) {
+void TreeBuilder::add_tree_bottom_up(const CellLights& lights, std::uint32_t leaf_size) {
     const std::uint32_t leaves = std::bit_ceil(divide_up(lights.count, leaf_size));
     const std::uint32_t per_leaf = divide_up(lights.count, leaves);
     const std::uint32_t node_count = 2 * leaves - 1;
@@ -141,7 +222,7 @@ void TreeBuilder::add_tree(const CellLights& lights, std::uint32_t leaf_size) {
     }
     for (std::uint32_t node = leaves, child = 0; node < node_count; ++node, child += 2)
         nodes[node] = parent_of(nodes[child], nodes[child + 1]);
-    trees_.push_back({node_count_, std::uint32_t(std::bit_width(leaves))});
+    trees_.push_back({node_count_, node_count, std::uint32_t(std::bit_width(leaves))});
     node_count_ += node_count;
 }
 
@@ -151,25 +232,26 @@ float TreeBuilder::expected_cost(std::size_t first_tree, SliceExtent extent) con
     float cost = 0.0f;
     for (std::size_t tree = first_tree; tree < trees_.size(); ++tree) {
         const MlNode* nodes = scratch_.data() + trees_[tree].first_node;
-        const std::uint32_t node_count = (1u << trees_[tree].levels) - 1;
         cost += kNodeCost;
-        for (std::uint32_t i = 0; i < node_count; ++i) {
+        for (std::uint32_t i = 0; i < trees_[tree].node_count; ++i) {
             const bool leaf = ml_node_is_leaf(nodes[i].bits);
             const float price = leaf ? float(ml_node_light_count(nodes[i].bits)) : 2.0f * kNodeCost;
-            cost += hit_chance(nodes[i], extent) * price;
+            cost += hit_chance({nodes[i].min_depth, nodes[i].max_depth}, extent) * price;
         }
     }
     return cost;
 }
 
 void TreeBuilder::pack(MlNode* nodes) {
-    const MlNode* scratch = scratch_.data();
     for (const Tree& tree : trees_) {
-        const DepthFirstEntry* table = tables_[tree.levels].data();
-        const MlNode* from = scratch + tree.first_node;
+        const MlNode* from = scratch_.data() + tree.first_node;
         MlNode* to = nodes + tree.first_node;
-        const std::uint32_t node_count = (1u << tree.levels) - 1;
-        for (std::uint32_t i = 0; i < node_count; ++i) {
+        if (tree.levels == 0) {
+            std::copy_n(from, tree.node_count, to);
+            continue;
+        }
+        const DepthFirstEntry* table = tables_[tree.levels].data();
+        for (std::uint32_t i = 0; i < tree.node_count; ++i) {
             to[i] = from[table[i].breadth_first];
             to[i].bits |= table[i].skip;
         }

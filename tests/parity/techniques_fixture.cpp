@@ -89,6 +89,18 @@ View made_view(gpu::Device& device, std::uint32_t width, std::uint32_t height, s
     return view;
 }
 
+void add_lights_that_end_at_points(View& view) {
+    const glm::vec3 forward = camera_basis(view.camera, view.width, view.height).forward;
+    oracle::Random random(4);
+    for (const PointPosition& point : view.positions) {
+        if (point.depth == 0.0f || !random.chance(0.25)) continue;
+        const float range = static_cast<float>(0.5 * point.depth * random.unit());
+        const float side = random.chance(0.5) ? 1.0f : -1.0f;
+        const glm::vec3 center = view.camera.position + point.position + forward * (side * range * 0.9999999f);
+        view.lights.push_back({{{center.x, center.y, center.z}, range}, {1, 1, 1}});
+    }
+}
+
 void PrintTo(const Variant& variant, std::ostream* out) { *out << variant.label; }
 
 std::vector<Variant> structure_variants() {
@@ -107,7 +119,14 @@ std::vector<Variant> structure_variants() {
              "clustered",
              {{"cell_test", "tight"}, {"loop", "wave"}, {"tile_size", "8"}, {"slice_count", "64"}}},
             {"tiled_light_trees_paper", "tiled_light_trees", {{"producer", "paper"}}},
-            {"hybrid_light_trees_paper", "hybrid_light_trees", {{"producer", "paper"}}}};
+            {"hybrid_light_trees_paper", "hybrid_light_trees", {{"producer", "paper"}}},
+            {"tiled_light_trees_device", "tiled_light_trees", {{"build", "device"}, {"lds", "on"}}},
+            {"hybrid_light_trees_device",
+             "hybrid_light_trees",
+             {{"build", "device"}, {"paths", "three"}, {"lights", "duplicated"}}},
+            {"tiled_light_trees_slices",
+             "tiled_light_trees",
+             {{"producer", "paper"}, {"entry", "slice"}, {"tree", "top_down"}, {"sort", "cell"}}}};
 }
 
 std::vector<Variant> all_variants() {

@@ -37,6 +37,10 @@ struct View {
 /// each affects some.
 View made_view(gpu::Device& device, std::uint32_t width, std::uint32_t height, std::uint32_t light_count);
 
+/// At a quarter of the points a light that ends just in front of or just behind it, in line with the camera's forward
+/// axis, where nothing but the depth can leave it out.
+void add_lights_that_end_at_points(View& view);
+
 /// A technique and its options, and a name that tests may carry.
 struct Variant {
     const char* label;

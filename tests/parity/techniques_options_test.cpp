@@ -40,7 +40,11 @@ TEST_F(TechniquesTest, unknown_option_names_the_keys) {
     for (const char* name : {"tiled_light_trees", "hybrid_light_trees", "depth_windows"})
         for (const char* key : {"cell_test", "loop"})
             expect_words(refusal(device(), name, {{key, "tight"}}), {name, key});
-    expect_words(refusal(device(), "tiled_light_trees", {{"slice_count", "4"}}), {"slice_count", "leaf_size"});
+    expect_words(refusal(device(), "tiled_light_trees", {{"paths", "three"}}), {"paths", "leaf_size"});
+    for (const char* key : {"leaf_size", "heuristic", "paths", "lds", "sort", "tree", "entry", "list_bounds"})
+        expect_words(refusal(device(), "clustered", {{key, "4"}}), {"clustered", key, "slice_count"});
+    for (const char* key : {"build", "lights", "lds", "paths"})
+        expect_words(refusal(device(), "depth_windows", {{key, "on"}}), {"depth_windows", key, "tile_size"});
     for (const char* key : {"slice_count", "leaf_size", "producer"})
         expect_words(refusal(device(), "depth_windows", {{key, "4"}}), {"depth_windows", key, "tile_size", "depth"});
     for (const char* name : {"brute_force", "exact"})
@@ -116,6 +120,18 @@ TEST_F(TechniquesTest, values_out_of_range_name_the_range) {
     expect_words(refusal(device(), "light_volumes", {{"order", "far"}}), {"order", "far", "index, near"});
     const OptionValues heuristic{{"producer", "paper"}, {"heuristic", "f"}};
     expect_words(refusal(device(), "hybrid_light_trees", heuristic), {"heuristic", "f", "a, b, c, d, e, lists"});
+    expect_words(refusal(device(), "clustered", {{"build", "gpu"}}), {"build=gpu", "host, device"});
+    expect_words(refusal(device(), "clustered", {{"lights", "copied"}}), {"lights=copied", "indexed, duplicated"});
+    expect_words(refusal(device(), "hybrid_light_trees", {{"paths", "3"}}), {"paths=3", "one, three"});
+    expect_words(refusal(device(), "tiled_light_trees", {{"lds", "1"}}), {"lds=1", "off, on"});
+    const auto with_paper = [](const char* key, const char* value) {
+        return OptionValues{{"producer", "paper"}, {key, value}};
+    };
+    expect_words(refusal(device(), "tiled_light_trees", with_paper("sort", "tile")), {"sort=tile", "global, cell"});
+    expect_words(refusal(device(), "tiled_light_trees", with_paper("tree", "wide")), {"tree=wide", "top_down"});
+    expect_words(refusal(device(), "tiled_light_trees", with_paper("entry", "leaf")), {"entry=leaf", "root, slice"});
+    expect_words(refusal(device(), "hybrid_light_trees", with_paper("list_bounds", "none")),
+                 {"list_bounds=none", "infinite, lights"});
 }
 
 TEST_F(TechniquesTest, options_that_contradict_each_other_are_refused) {
@@ -123,6 +139,20 @@ TEST_F(TechniquesTest, options_that_contradict_each_other_are_refused) {
                  {"slice_near", "slice_far"});
     expect_words(refusal(device(), "clustered", {{"tile_size", "16"}, {"tile_size", "32"}}), {"tile_size", "twice"});
     expect_words(refusal(device(), "hybrid_light_trees", {{"heuristic", "a"}}), {"heuristic", "producer=paper"});
+    for (const char* key : {"sort_key", "sort", "tree", "entry"})
+        expect_words(refusal(device(), "tiled_light_trees", {{key, ""}}), {"tiled_light_trees", key, "producer=paper"});
+    for (const char* key : {"slice_count", "slice_near", "slice_far"})
+        for (const OptionValues& options : {OptionValues{{key, "4"}}, OptionValues{{key, "4"}, {"build", "device"}}})
+            expect_words(refusal(device(), "tiled_light_trees", options), {"tiled_light_trees", key, "entry=slice"});
+    for (const auto& [key, value] : OptionValues{{"producer", "paper"}, {"tree", "top_down"}})
+        expect_words(refusal(device(), "hybrid_light_trees", {{"build", "device"}, {key, value}}),
+                     {"hybrid_light_trees", key, "not with build=device"});
+    expect_words(refusal(device(), "tiled_light_trees", {{"build", "device"}, {"entry", "slice"}}),
+                 {"entry", "not with build=device"});
+    expect_words(refusal(device(), "clustered", {{"build", "device"}, {"cell_test", "tight"}}),
+                 {"cell_test", "not with build=device"});
+    expect_words(refusal(device(), "clustered", {{"loop", "wave"}, {"lights", "duplicated"}}),
+                 {"lights=duplicated", "not with loop=wave"});
     expect_words(refusal(device(), "clustered", {{"producer", "library"}, {"cell_test", "tight"}}),
                  {"clustered", "cell_test=tight", "producer=paper"});
     expect_words(refusal(device(), "clustered", {{"loop", "wave"}, {"producer", "library"}}),
@@ -141,6 +171,7 @@ TEST_F(TechniquesTest, tight_cells_and_the_loop_of_waves_choose_the_producer) {
     for (const OptionValues& options :
          {OptionValues{{"cell_test", "tight"}}, OptionValues{{"loop", "wave"}, {"listing4", "printed"}},
           OptionValues{{"cell_test", "tight"}, {"producer", "paper"}},
+          OptionValues{{"loop", "wave"}, {"build", "device"}},
           OptionValues{{"cell_test", "box"}, {"loop", "lane"}, {"producer", "library"}}})
         EXPECT_EQ(refusal(device(), "clustered", options), "");
     const auto producer_with = [](const OptionValues& options) {

@@ -91,15 +91,7 @@ class ZBinsTest : public TechniquesTest {
 // nothing but the depth can leave them out.
 TEST_F(ZBinsTest, hold_lights_that_end_at_a_point) {
     View view = made_view(device(), 97, 60, 0);
-    const glm::vec3 forward = camera_basis(view.camera, view.width, view.height).forward;
-    oracle::Random random(4);
-    for (const PointPosition& point : view.positions) {
-        if (point.depth == 0.0f || !random.chance(0.25)) continue;
-        const float range = static_cast<float>(0.5 * point.depth * random.unit());
-        const float side = random.chance(0.5) ? 1.0f : -1.0f;
-        const glm::vec3 center = view.camera.position + point.position + forward * (side * range * 0.9999999f);
-        view.lights.push_back({{{center.x, center.y, center.z}, range}, {1, 1, 1}});
-    }
+    add_lights_that_end_at_points(view);
     ASSERT_GT(view.lights.size(), 1000u);
     expect_exact(view, "lights that end at points");
 }

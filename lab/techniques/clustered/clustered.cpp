@@ -16,8 +16,8 @@ constexpr std::uint32_t kShadeCode[] =
 
 // A lane of a wave touches its own lists, as the cursor's lanes do; what the wave loads is their union, which the
 // modelled waves make of any log.
-QueryShaders shaders_of(ListLoop loop, const gpu::DeviceInfo& device) {
-    if (loop == ListLoop::lane) return cursor_shaders();
+QueryShaders shaders_of(const StructureOptions& options, const gpu::DeviceInfo& device) {
+    if (options.loop == ListLoop::lane) return tree_shaders(options);
     if (!device.has_wave_operations)
         throw DeviceError("clustered: option loop=wave: the device " + device.name +
                           " lacks subgroup votes, ballots or arithmetic");
@@ -33,9 +33,8 @@ TechniqueInfo clustered_info() {
 
 std::unique_ptr<Technique> make_clustered(gpu::Device& device, const OptionValues& options) {
     const TechniqueInfo info = clustered_info();
-    const ListLoop loop = read_structure_options(info, StructureKind::lists, options).loop;
-    return std::make_unique<StructureTechnique>(device, info, StructureKind::lists, options,
-                                                shaders_of(loop, device.info()));
+    const StructureOptions structure = read_structure_options(info, StructureKind::lists, options);
+    return std::make_unique<StructureTechnique>(device, info, structure, shaders_of(structure, device.info()));
 }
 
 } // namespace manylights::lab

@@ -47,8 +47,9 @@ TechniqueInfo depth_windows_wave_info() {
 }
 
 std::unique_ptr<Technique> make_depth_windows_wave(gpu::Device& device, const OptionValues& options) {
-    return std::make_unique<StructureTechnique>(device, depth_windows_wave_info(), StructureKind::windows, options,
-                                                shaders_of(device, options));
+    const TechniqueInfo info = depth_windows_wave_info();
+    return std::make_unique<StructureTechnique>(
+        device, info, read_structure_options(info, StructureKind::windows, options), shaders_of(device, options));
 }
 
 } // namespace manylights::lab

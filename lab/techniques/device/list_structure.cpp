@@ -1,7 +1,5 @@
 #include "lab/techniques/device/list_structure.h"
 
-#include <manylights/format.h>
-
 #include <array>
 #include <limits>
 #include <numeric>
@@ -12,7 +10,10 @@ namespace {
 
 constexpr std::array<float, 2> kSliceEdges{0.0f, std::numeric_limits<float>::infinity()};
 
-MlView view_of(std::uint32_t width, std::uint32_t height, std::uint32_t tile_size) {
+} // namespace
+
+MlView structure_view(std::uint32_t width, std::uint32_t height, std::uint32_t tile_size, std::uint32_t slice_count,
+                      MlUint structure) {
     const TileGrid grid = tile_grid(width, height, tile_size);
     MlView view{};
     view.width = width;
@@ -20,20 +21,18 @@ MlView view_of(std::uint32_t width, std::uint32_t height, std::uint32_t tile_siz
     view.tile_px = tile_size;
     view.tiles_x = grid.tiles_x;
     view.tiles_y = grid.tiles_y;
-    view.slice_count = 1;
-    view.cell_count = grid.tile_count();
-    view.structure = ML_STRUCTURE_LISTS;
+    view.slice_count = slice_count;
+    view.cell_count = grid.tile_count() * slice_count;
+    view.structure = structure;
     return view;
 }
-
-} // namespace
 
 ListStructure::ListStructure(gpu::Device& device)
     : views_(device, "view of lists"), nodes_(device, "nodes of lists"),
       slice_edges_(device, "slice edges of lists", std::span<const float>(kSliceEdges)) {}
 
 void ListStructure::fit(std::uint32_t width, std::uint32_t height, std::uint32_t tile_size) {
-    const MlView view = view_of(width, height, tile_size);
+    const MlView view = structure_view(width, height, tile_size, 1, ML_STRUCTURE_LISTS);
     views_.fit(sizeof view);
     views_.buffer().upload(std::span<const MlView>(&view, 1));
     nodes_.fit(0);

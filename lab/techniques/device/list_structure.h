@@ -4,7 +4,13 @@
 
 #include "lab/techniques/device/tile_lists.h"
 
+#include <manylights/format.h>
+
 namespace manylights::lab {
+
+/// The one view of a structure that is built on the device; the first guess of a depth's slice is left 0.
+MlView structure_view(std::uint32_t width, std::uint32_t height, std::uint32_t tile_size, std::uint32_t slice_count,
+                      MlUint structure);
 
 class ListStructure {
   public:

@@ -3,10 +3,9 @@
 #include "lab/gpu/commands.h"
 #include "lab/gpu/device.h"
 #include "lab/gpu/image.h"
-#include "lab/gpu/radix_sort.h"
 #include "lab/renderer/point_buffer.h"
 #include "lab/scene/error.h"
-#include "lab/techniques/device/visible_lights.h"
+#include "lab/techniques/device/depth_order.h"
 #include "lab/techniques/device_technique.h"
 #include "lab/techniques/light_volumes/proxy_mesh.h"
 #include "lab/techniques/options.h"
@@ -32,12 +31,9 @@ constexpr std::uint32_t kShadeCode[] =
 constexpr std::uint32_t kLogCode[] =
 #include "light_volumes_log.frag.inc"
     ;
-constexpr std::uint32_t kKeysCode[] =
-#include "visible_lights_keys.comp.inc"
-    ;
 
 constexpr VkFormat kColorFormat = VK_FORMAT_R32G32B32A32_SFLOAT, kDepthFormat = VK_FORMAT_D32_SFLOAT;
-constexpr std::uint32_t kBuffers = 9, kRectangleVertices = 6, kGroupSize = 64, kSortedBits = 32;
+constexpr std::uint32_t kBuffers = 9, kRectangleVertices = 6;
 
 // As volumes.glsl and light_volumes.vert number them.
 enum Shape : std::uint32_t { kMesh, kRectangle, kImage };
@@ -152,13 +148,12 @@ gpu::RasterPipeline make_depth_pipeline(gpu::Device& device) {
 class LightVolumes : public DeviceTechnique {
   public:
     LightVolumes(gpu::Device& device, const Options& options)
-        : DeviceTechnique(device, info_with(options)), options_(options), visible_(device), sort_(device),
-          keys_pipeline_(device, {"light_volumes, keys", kKeysCode, 3, sizeof(std::uint32_t), {options.by_near_end}}),
-          depth_pipeline_(make_depth_pipeline(device)), record_(device, {"record", kRecordCode, false}, options),
+        : DeviceTechnique(device, info_with(options)), options_(options), visible_(device),
+          order_(device, options.by_near_end), depth_pipeline_(make_depth_pipeline(device)),
+          record_(device, {"record", kRecordCode, false}, options),
           shade_(device, {"shade", kShadeCode, true}, options), log_(device, {"log", kLogCode, false}, options),
           mesh_(make_proxy_mesh(options.mesh_level)),
-          corners_(device, "mesh of light volumes", std::span<const glm::vec4>(mesh_.corners)),
-          keys_(device, "depths of lights"), order_(device, "lights in view in order") {}
+          corners_(device, "mesh of light volumes", std::span<const glm::vec4>(mesh_.corners)) {}
 
     std::vector<PixelRecord> record(const Frame& frame) override;
     std::vector<float> shade(const Frame& frame) override;
@@ -181,13 +176,11 @@ class LightVolumes : public DeviceTechnique {
 
     Options options_;
     VisibleLights visible_;
-    gpu::RadixSort sort_;
-    gpu::ComputePipeline keys_pipeline_;
+    DepthOrder order_;
     gpu::RasterPipeline depth_pipeline_;
     Drawing record_, shade_, log_;
     ProxyMesh mesh_;
     gpu::Buffer corners_;
-    FittedBuffer keys_, order_;
     std::optional<gpu::Image> depth_; ///< of the frame's points, where it is compared
     DeviceView view_{};
     bool is_warm_ = false; ///< the shade pipelines have their machine code
@@ -204,19 +197,11 @@ void LightVolumes::build(const Frame& frame) {
     stats_.structure_bytes = mesh_bytes + visible_.count() * (sizeof(VisibleLight) + sizeof(std::uint32_t));
 }
 
-// The keys' shader numbers the lights in the order of their indices.
 double LightVolumes::find_order() {
-    const std::uint32_t lights = visible_.count();
-    keys_.fit(lights * sizeof(std::uint32_t));
-    order_.fit(lights * sizeof(std::uint32_t));
-    sort_.reserve(lights);
+    order_.reserve(visible_.count());
     gpu::Commands commands(device());
     const std::uint32_t start = commands.timestamp();
-    if (lights != 0) {
-        commands.dispatch(keys_pipeline_, {{visible_.lights()}, {keys_.buffer()}, {order_.buffer()}}, lights,
-                          {gpu::group_count(lights, kGroupSize), 1, 1});
-        if (options_.by_near_end) sort_.record(commands, keys_.buffer(), order_.buffer(), lights, kSortedBits);
-    }
+    order_.record(commands, visible_, options_.by_near_end);
     const std::uint32_t end = commands.timestamp();
     commands.submit_and_wait("the order of light volumes");
     return commands.milliseconds(start, end);
@@ -245,12 +230,12 @@ double LightVolumes::draw_depths(const Frame& frame) {
 std::vector<gpu::Binding> LightVolumes::bindings(const Frame& frame, const gpu::Buffer& output) const {
     return {{frame.points.positions()}, {frame.points.normals()}, {frame.points.materials()},
             {lights().spheres},         {lights().colors},        {output},
-            {visible_.lights()},        {order_.buffer()},        {corners_}};
+            {visible_.lights()},        {order_.order()},         {corners_}};
 }
 
 std::vector<gpu::Binding> LightVolumes::log_bindings(const Frame& frame, const LogBuffers& log) const {
-    return {{frame.points.positions()}, {log.blocks},      {log.places}, {lights().spheres}, {log.ends}, {log.words},
-            {visible_.lights()},        {order_.buffer()}, {corners_}};
+    return {{frame.points.positions()}, {log.blocks},     {log.places}, {lights().spheres}, {log.ends}, {log.words},
+            {visible_.lights()},        {order_.order()}, {corners_}};
 }
 
 gpu::Targets LightVolumes::targets(const Frame& frame, const gpu::Image* color) const {

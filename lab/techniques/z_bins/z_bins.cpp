@@ -1,9 +1,8 @@
 #include "lab/techniques/z_bins/z_bins.h"
 
 #include "lab/gpu/device.h"
-#include "lab/gpu/radix_sort.h"
 #include "lab/scene/error.h"
-#include "lab/techniques/device/visible_lights.h"
+#include "lab/techniques/device/depth_order.h"
 #include "lab/techniques/options.h"
 #include "lab/techniques/pass_technique.h"
 #include "lab/techniques/z_bins/depth_bins.h"
@@ -16,9 +15,6 @@ namespace manylights::lab {
 
 namespace {
 
-constexpr std::uint32_t kKeysCode[] =
-#include "visible_lights_keys.comp.inc"
-    ;
 constexpr std::uint32_t kSpansCode[] =
 #include "z_bins_spans.comp.inc"
     ;
@@ -47,7 +43,7 @@ constexpr std::uint32_t kWaveLogCode[] =
 #include "z_bins_wave_log.comp.inc"
     ;
 
-constexpr std::uint32_t kGroupSize = 64, kBlockEdge = 8, kSortedBits = 32;
+constexpr std::uint32_t kGroupSize = 64, kBlockEdge = 8;
 
 struct Options {
     std::uint32_t tile_size, bins;
@@ -104,14 +100,12 @@ class ZBins : public PassTechnique {
   public:
     ZBins(gpu::Device& device, const Options& options)
         : PassTechnique(device, z_bins_info(), shaders_of(options, device.info())), options_(options), visible_(device),
-          sort_(device),
-          keys_pipeline_(device, {"z_bins, keys", kKeysCode, 3, sizeof(std::uint32_t), {options.by_near_end}}),
+          depth_order_(device, options.by_near_end),
           spans_pipeline_(device, {"z_bins, spans", kSpansCode, 4, sizeof(SpansPush), {}}),
           level_pipeline_(device, {"z_bins, levels", kLevelCode, 1, sizeof(LevelPush), {}}),
           masks_pipeline_(device, {"z_bins, masks", kMasksCode, 5, sizeof(MasksPush), {options.has_summary}}),
-          keys_(device, "depths of lights"), order_(device, "lights in view by depth"), levels_(device, "depth bins"),
-          ranked_(device, "lights by rank"), masks_(device, "masks of tiles"), summaries_(device, "summaries of masks"),
-          bit_counts_(device, "bits of masks"), header_(device, "z_bins") {}
+          levels_(device, "depth bins"), ranked_(device, "lights by rank"), masks_(device, "masks of tiles"),
+          summaries_(device, "summaries of masks"), bit_counts_(device, "bits of masks"), header_(device, "z_bins") {}
 
   protected:
     void build(const Frame& frame) override;
@@ -122,7 +116,6 @@ class ZBins : public PassTechnique {
   private:
     DepthBins bins_of(const Frame& frame) const;
     void fit(const Frame& frame);
-    void record_sort(gpu::Commands& commands);
     void record_bins(gpu::Commands& commands);
     void record_masks(gpu::Commands& commands, const DeviceView& view);
     void count();
@@ -136,9 +129,9 @@ class ZBins : public PassTechnique {
 
     Options options_;
     VisibleLights visible_;
-    gpu::RadixSort sort_;
-    gpu::ComputePipeline keys_pipeline_, spans_pipeline_, level_pipeline_, masks_pipeline_;
-    FittedBuffer keys_, order_, levels_, ranked_, masks_, summaries_, bit_counts_, header_;
+    DepthOrder depth_order_;
+    gpu::ComputePipeline spans_pipeline_, level_pipeline_, masks_pipeline_;
+    FittedBuffer levels_, ranked_, masks_, summaries_, bit_counts_, header_;
     MasksSize size_{};
     DepthBins bins_{};
 };
@@ -153,28 +146,22 @@ void ZBins::fit(const Frame& frame) {
     const std::uint64_t lights = visible_.count();
     size_ = masks_size(frame.width, frame.height, options_.tile_size, visible_.count());
     bins_ = bins_of(frame);
-    for (FittedBuffer* buffer : {&keys_, &order_, &ranked_}) buffer->fit(lights * sizeof(std::uint32_t));
+    ranked_.fit(lights * sizeof(std::uint32_t));
+    depth_order_.reserve(visible_.count());
     levels_.fit(std::uint64_t{top_level() + 1} * options_.bins * sizeof(std::uint64_t));
     masks_.fit(mask_bytes());
     summaries_.fit(summary_bytes());
     bit_counts_.fit(size_.summary * sizeof(std::uint32_t));
-    sort_.reserve(visible_.count());
     header_.fit(sizeof(Header));
     const Header header{bins_, options_.tile_size, size_.tiles_x, size_.words,
                         options_.has_summary ? size_.summary : 0};
     header_.buffer().upload(std::span<const Header>(&header, 1));
 }
 
-void ZBins::record_sort(gpu::Commands& commands) {
-    const std::uint32_t lights = visible_.count();
-    commands.dispatch(keys_pipeline_, {{visible_.lights()}, {keys_.buffer()}, {order_.buffer()}}, lights,
-                      {gpu::group_count(lights, kGroupSize), 1, 1});
-    sort_.record(commands, keys_.buffer(), order_.buffer(), lights, kSortedBits);
-}
-
 void ZBins::record_bins(gpu::Commands& commands) {
     const std::uint32_t lights = visible_.count();
-    commands.dispatch(spans_pipeline_, {{visible_.lights()}, {order_.buffer()}, {levels_.buffer()}, {ranked_.buffer()}},
+    commands.dispatch(spans_pipeline_,
+                      {{visible_.lights()}, {depth_order_.order()}, {levels_.buffer()}, {ranked_.buffer()}},
                       SpansPush{bins_, lights}, {gpu::group_count(lights, kGroupSize), 1, 1});
     for (std::uint32_t level = top_level(); level > 0; --level) {
         commands.barrier();
@@ -186,7 +173,7 @@ void ZBins::record_bins(gpu::Commands& commands) {
 void ZBins::record_masks(gpu::Commands& commands, const DeviceView& view) {
     commands.dispatch(
         masks_pipeline_,
-        {{visible_.lights()}, {order_.buffer()}, {masks_.buffer()}, {summaries_.buffer()}, {bit_counts_.buffer()}},
+        {{visible_.lights()}, {depth_order_.order()}, {masks_.buffer()}, {summaries_.buffer()}, {bit_counts_.buffer()}},
         MasksPush{view, size_.tiles_x, size_.tiles_y, options_.tile_size, visible_.count()},
         {gpu::group_count(size_.tiles_x, kBlockEdge), gpu::group_count(size_.tiles_y, kBlockEdge), size_.summary});
 }
@@ -201,7 +188,7 @@ void ZBins::build(const Frame& frame) {
     commands.fill(bit_counts_.buffer(), 0);
     commands.barrier();
     if (visible_.count() != 0) {
-        record_sort(commands);
+        depth_order_.record(commands, visible_);
         record_bins(commands);
         record_masks(commands, view);
     }

@@ -113,6 +113,49 @@ TEST_F(Switches, SortKeysDifferInOrderOnly) {
     EXPECT_EQ(sorted_a, sorted_b);
 }
 
+// The same lights in each cell, in nearly the same order: a depth range's middle is the centre but for rounding.
+TEST_F(Switches, SortedCellsAreThoseOfSortedLights) {
+    for (const SortKey key : {SortKey::center_depth, SortKey::near_depth}) {
+        PaperPipeline all, each;
+        const Buffers& a = all.build({&view_, 1}, lights_of(lights_), {.structure = Structure::tree, .sort_key = key});
+        const Buffers& b =
+            each.build({&view_, 1}, lights_of(lights_),
+                       {.structure = Structure::tree, .sort_key = key, .sort_scope = SortScope::each_cell});
+        ASSERT_EQ(a.references.size(), b.references.size());
+        std::size_t same = 0;
+        for (std::size_t i = 0; i < a.references.size(); ++i) same += a.references[i] == b.references[i];
+        EXPECT_GT(double(same), 0.98 * double(a.references.size()));
+        EXPECT_EQ(a.nodes.size(), b.nodes.size());
+    }
+}
+
+TEST_F(Switches, SortedCellsPruneAndUnsortedOnesWouldNot) {
+    const Work all = work_with({.structure = Structure::tree});
+    const Work each = work_with({.structure = Structure::tree, .sort_scope = SortScope::each_cell});
+    EXPECT_NEAR(double(each.tested), double(all.tested), 0.01 * double(all.tested));
+}
+
+TEST_F(Switches, TopDownTreesTestFewerLights) {
+    for (const std::uint32_t leaf_size : {1u, 4u, 16u}) {
+        const Work up = work_with({.structure = Structure::tree, .leaf_size = leaf_size});
+        const Work down =
+            work_with({.structure = Structure::tree, .leaf_size = leaf_size, .tree_build = TreeBuild::top_down});
+        EXPECT_LE(down.tested, up.tested) << leaf_size;
+    }
+}
+
+// The lights tested are those of the walk from the root; the nodes above the entry are not visited.
+TEST_F(Switches, EntriesPerSliceVisitFewerNodes) {
+    for (const std::uint32_t slices : {1u, 16u, 128u}) {
+        const Work root = work_with({.structure = Structure::tree});
+        const Work entry =
+            work_with({.structure = Structure::tree, .slice_count = slices, .tree_entry = TreeEntry::per_slice});
+        EXPECT_EQ(entry.tested, root.tested);
+        EXPECT_LE(entry.nodes, root.nodes);
+        EXPECT_TRUE(slices == 1 || entry.nodes < root.nodes);
+    }
+}
+
 TEST_F(Switches, MemoryOfEarlierFramesDoesNotShow) {
     PaperPipeline used;
     used.build({&view_, 1}, lights_of(lights_), {.structure = Structure::tree, .leaf_size = 1});

@@ -57,10 +57,11 @@ std::vector<DepthRange> random_ranges(std::uint32_t count, std::uint32_t seed) {
     return ranges;
 }
 
-std::vector<MlNode> build_tree(const std::vector<DepthRange>& ranges, std::uint32_t leaf_size) {
+std::vector<MlNode> build_tree(const std::vector<DepthRange>& ranges, std::uint32_t leaf_size,
+                               TreeBuild build = TreeBuild::bottom_up) {
     TreeBuilder builder;
     builder.build_cell({100, std::uint32_t(ranges.size()), ranges.data()}, {0.1f, 500.0f},
-                       {.structure = Structure::tree, .leaf_size = leaf_size});
+                       {.structure = Structure::tree, .leaf_size = leaf_size, .tree_build = build});
     std::vector<MlNode> nodes(builder.node_count());
     builder.pack(nodes.data());
     return nodes;
@@ -104,6 +105,73 @@ TEST(Tree, BoundsItsLightsOnEveryLevel) {
             EXPECT_EQ(expect_subtree(nodes, 0, ranges, next_light), nodes.size());
             EXPECT_EQ(next_light, count);
         }
+    }
+}
+
+TEST(Tree, TopDownBoundsItsLightsOnEveryLevelAndHasNoPadding) {
+    for (std::uint32_t count : {1u, 2u, 4u, 5u, 13u, 31u, 32u, 33u, 100u, 1234u, 16384u}) {
+        for (std::uint32_t leaf_size : {1u, 4u, 6u}) {
+            SCOPED_TRACE(std::to_string(count) + " lights, leaf " + std::to_string(leaf_size));
+            const auto ranges = random_ranges(count, count);
+            const auto nodes = build_tree(ranges, leaf_size, TreeBuild::top_down);
+            std::uint32_t next_light = 0;
+            EXPECT_EQ(expect_subtree(nodes, 0, ranges, next_light), nodes.size());
+            EXPECT_EQ(next_light, count);
+            for (const MlNode& node : nodes) {
+                const std::uint32_t lights = ml_node_light_count(node.bits);
+                EXPECT_TRUE(lights > 0 && (!ml_node_is_leaf(node.bits) || lights <= leaf_size));
+            }
+        }
+    }
+}
+
+// Three lights in front and five far behind: an even split would join the gap into a node.
+TEST(Tree, TopDownSplitsAtAGap) {
+    std::vector<DepthRange> ranges;
+    for (int i = 0; i < 8; ++i) ranges.push_back({i < 3 ? 10.0f : 400.0f, i < 3 ? 20.0f : 410.0f});
+    const auto nodes = build_tree(ranges, 5, TreeBuild::top_down);
+    ASSERT_EQ(nodes.size(), 3u);
+    EXPECT_EQ(ml_node_light_count(nodes[1].bits), 3u);
+    EXPECT_EQ(nodes[1].max_depth, 20.0f);
+    EXPECT_EQ(nodes[2].min_depth, 400.0f);
+}
+
+// Ever larger lights around the first one make the most uneven splits; more lights than one tree's leaves hold.
+TEST(Tree, TopDownFitsItsFields) {
+    std::vector<DepthRange> ranges;
+    for (std::uint32_t i = 0; i < 60000; ++i)
+        ranges.push_back({250.0f - 0.004f * float(i), 250.0f + 0.004f * float(i)});
+    for (const std::uint32_t leaf_size : {1u, 4u, 8u, 100u}) {
+        const auto nodes = build_tree(ranges, leaf_size, TreeBuild::top_down);
+        std::uint32_t next_light = 0;
+        std::size_t node = 0, trees = 0;
+        for (; node < nodes.size(); ++trees) node = expect_subtree(nodes, node, ranges, next_light);
+        EXPECT_EQ(next_light, 60000u);
+        EXPECT_EQ(trees, leaf_size < 16 ? 4u : 1u);
+    }
+}
+
+// Every leaf that a depth of the slice hits is inside, and nothing smaller would do.
+TEST(Tree, EntryInASliceHoldsWhatItsDepthsHit) {
+    Random random(5);
+    for (const TreeBuild build : {TreeBuild::bottom_up, TreeBuild::top_down}) {
+        const auto nodes = build_tree(random_ranges(300, 7), 2, build);
+        const MlCell tile{0, std::uint32_t(nodes.size())};
+        std::size_t smaller = 0, empty = 0;
+        for (int i = 0; i < 500; ++i) {
+            const float lower = float(random.between(0, 600));
+            const SliceExtent slice{lower, lower + float(random.between(0.01, 60))};
+            const MlCell entry = entry_in_slice(nodes.data(), tile, slice);
+            for (std::uint32_t node = 0; node < nodes.size(); ++node) {
+                const bool hit = nodes[node].min_depth < slice.max && nodes[node].max_depth >= slice.min;
+                if (!ml_node_is_leaf(nodes[node].bits) || !hit) continue;
+                EXPECT_TRUE(entry.first <= node && node < entry.first + entry.count);
+            }
+            smaller += entry.count < tile.count;
+            empty += entry.count == 0;
+        }
+        EXPECT_GT(smaller, 400u);
+        EXPECT_GT(empty, 20u);
     }
 }
 
