@@ -25,12 +25,13 @@ void insert(VisibleLight light, uint node) {
 }
 
 // May the light reach a point of the block? Depths of the part of its sphere that is in the pyramid of the block's
-// tiles.
-bool reaches(VisibleLight light, Block block) {
+// tiles. Of a single tile, as in octree_tiles.glsl, the pyramid's edges are asked as well.
+bool reaches(VisibleLight light, uint level, Block block) {
     uvec2 first = first_pixel_of(grid, block.first.xy), last = last_pixel_of(grid, block.last.xy, view.size);
     if (any(lessThan(last_pixel(light), first)) || any(greaterThan(first_pixel(light), last))) return false;
     DepthSpan span = rectangle_depths(view, first, last, light.sphere);
     if (span.low > span.high) return false;
+    if (level == 0u && misses_corner(view, first, last, light.sphere)) return false;
     uvec2 slices = slices_of(span);
     return slices.x <= block.last.z && slices.y >= block.first.z;
 }
@@ -39,7 +40,7 @@ bool reaches(VisibleLight light, Block block) {
 bool is_settled(VisibleLight light, uint level, uvec3 at, uint node) {
     if (!has_samples(node)) return true;
     Block block = block_of(level, at);
-    if (!reaches(light, block)) return true;
+    if (!reaches(light, level, block)) return true;
     if (!is_stored_at(light, level, block)) return false;
     insert(light, node);
     return true;

@@ -30,7 +30,7 @@ void leave(inout uint level, inout uint along) {
 
 void visit(VisibleLight light, uvec2 tile) {
     DepthSpan depths = depths_in_tile(light, tile);
-    if (depths.low > depths.high) return;
+    if (depths.low > depths.high || misses_tile(light, tile)) return;
     uvec2 slices = slices_of(depths);
     uint path[kMostLevels];
     uint level = root_level(), along = 0u;
