@@ -142,8 +142,8 @@ std::vector<OptionInfo> structure_option_infos(StructureKind kind) {
         infos.push_back({"loop", "who walks the lists",
                          "lane (default): each its own, or wave: all their union, with producer=paper"});
     }
-    infos.push_back(
-        {"listing4", "slice formula, with producer=paper or build=device", "corrected (default) or printed"});
+    infos.push_back({"listing4", "slice formula, with producer=paper or build=device" + with_entry,
+                     "corrected (default) or printed"});
     add_tree_infos(kind, infos);
     add_walk_infos(kind, infos);
     return infos;
