@@ -342,7 +342,7 @@ TEST_F(DeviceBuildTest, refuses_what_cannot_be_sorted) {
     GridReferences references(device(), "huge");
     const gpu::Buffer edges(device(), "edges", 8);
     try {
-        references.find({{8, 8192, 8192}, 2, edges}, lights, order);
+        references.find({{8192, 8192, 65536, 65536}, 2, edges}, lights, order);
         ADD_FAILURE() << "more cells than a prefix sum takes were accepted";
     } catch (const InputError& error) {
         for (const char* word : {"huge", "134217728 cells", "67108864"})
