@@ -185,8 +185,7 @@ TEST_F(TechniquesTest, tight_cells_and_the_loop_of_waves_choose_the_producer) {
 
 TEST(Techniques, infos_name_every_technique_and_their_options) {
     const std::vector<TechniqueInfo> infos = technique_infos();
-    ASSERT_EQ(infos.size(), 12u);
-    ASSERT_EQ(infos.size(), 13u);
+    ASSERT_EQ(infos.size(), 15u);
     EXPECT_EQ(infos[0].name, "brute_force");
     EXPECT_EQ(infos[1].name, "exact");
     for (const TechniqueInfo& info : infos) EXPECT_FALSE(info.summary.empty());

@@ -12,6 +12,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace manylights::lab {
 
@@ -75,6 +78,35 @@ void expect_sets_of_oracle(const View& view, std::vector<PixelRecord> got) {
     expect_exact(compare(oracle_records(view), got, view.width), "brute force against the oracle");
 }
 
+// Views, and what brute force finds in them.
+class Views {
+  public:
+    void add(gpu::Device& device, std::unique_ptr<View> view, std::string name) {
+        std::vector<PixelRecord> truth = records_of(device, kBruteForce, view->frame());
+        entries_.push_back({std::move(view), std::move(name), std::move(truth)});
+    }
+    const std::vector<PixelRecord>& last_truth() const { return entries_.back().truth; }
+
+    // In each by the same technique, one after the other.
+    void expect_exact_by(gpu::Device& device, const Variant& variant) const {
+        const std::unique_ptr<Technique> technique = make_technique(device, variant.technique, variant.options);
+        for (const Entry& entry : entries_) {
+            technique->prepare(entry.view->frame());
+            const std::vector<PixelRecord> got = technique->record(entry.view->frame());
+            expect_exact(compare(entry.truth, got, entry.view->width), std::string(variant.label) + ", " + entry.name);
+            EXPECT_EQ(light_set_hash(entry.truth), light_set_hash(got));
+        }
+    }
+
+  private:
+    struct Entry {
+        std::unique_ptr<View> view;
+        std::string name;
+        std::vector<PixelRecord> truth;
+    };
+    std::vector<Entry> entries_;
+};
+
 class StructureTest : public TechniquesTest, public ::testing::WithParamInterface<Variant> {};
 INSTANTIATE_TEST_SUITE_P(Techniques, StructureTest, ::testing::ValuesIn(structure_variants()), name_of);
 
@@ -119,19 +151,14 @@ TEST_F(TechniquesTest, unusable_lights_affect_nothing_and_leave_the_others_alone
         expect_exact(compare(truth, records_of(device(), variant, view.frame()), view.width), variant.label);
 }
 
+// One of each technique for all views, so that frames of other sizes and counts come before each.
 TEST_F(TechniquesTest, all_agree_with_brute_force_for_every_count_and_size) {
-    for (const std::uint32_t count : {0u, 1u, 31u, 32u, 33u, 1234u}) {
-        for (const ImageSize size : kSizes) {
-            const View view = made_view(device(), size.width, size.height, count);
-            const std::vector<PixelRecord> truth = records_of(device(), kBruteForce, view.frame());
-            const std::string lights = ", " + std::to_string(count) + " lights";
-            for (const Variant& variant : all_variants()) {
-                const std::vector<PixelRecord> got = records_of(device(), variant, view.frame());
-                expect_exact(compare(truth, got, size.width), variant.label + lights);
-                EXPECT_EQ(light_set_hash(truth), light_set_hash(got));
-            }
-        }
-    }
+    Views views;
+    for (const std::uint32_t count : {1234u, 0u, 33u, 1u, 32u, 31u})
+        for (const ImageSize size : kSizes)
+            views.add(device(), std::make_unique<View>(made_view(device(), size.width, size.height, count)),
+                      std::to_string(count) + " lights");
+    for (const Variant& variant : all_variants()) views.expect_exact_by(device(), variant);
 }
 
 // Brute force needs two submissions for so many, and a tile holds more than 16 bits count.
@@ -149,23 +176,23 @@ TEST_F(TechniquesTest, all_agree_with_brute_force_for_65537_lights) {
 }
 
 TEST_F(TechniquesTest, all_agree_with_brute_force_in_built_in_scenes) {
+    Views views;
     for (const char* name : {"cornell", "canyon"}) {
-        const Scene scene = load_scene(name, Detail::low);
-        const Camera camera = find_camera(scene, "");
-        const PointBuffer points = Renderer(device(), scene).render_points(camera, 96, 54);
         for (const char* distribution : {"volume", "surface", "groups"}) {
+            Scene scene = load_scene(name, Detail::low);
+            const Camera camera = find_camera(scene, "");
+            PointBuffer points = Renderer(device(), scene).render_points(camera, 96, 54);
             LightOptions options;
             options.count = 2000;
             options.distribution = distribution;
-            const LightSet set = make_lights(scene, camera, options);
-            const Frame frame{scene, camera, 96, 54, set.lights, points};
-            const std::vector<PixelRecord> truth = records_of(device(), kBruteForce, frame);
-            EXPECT_GT(summarize(truth).affecting_mean, 0.0) << name << ", " << distribution;
-            for (const Variant& variant : all_variants())
-                expect_exact(compare(truth, records_of(device(), variant, frame), 96),
-                             std::string(variant.label) + ", " + name + ", " + distribution);
+            std::vector<Light> lights = make_lights(scene, camera, options).lights;
+            auto view = std::make_unique<View>(
+                View{std::move(scene), camera, 96, 54, {}, {}, std::move(lights), std::move(points)});
+            views.add(device(), std::move(view), std::string(name) + ", " + distribution);
+            EXPECT_GT(summarize(views.last_truth()).affecting_mean, 0.0) << name << ", " << distribution;
         }
     }
+    for (const Variant& variant : all_variants()) views.expect_exact_by(device(), variant);
 }
 
 TEST_P(VariantTest, shows_a_removed_light) {
