@@ -125,10 +125,15 @@ const Cap* cap_of(const TechniqueChoice& choice) {
     return cap != std::end(kCaps) ? cap : nullptr;
 }
 
-std::vector<TechniqueChoice> within_caps(const std::vector<TechniqueChoice>& choices, std::uint32_t lights) {
+// Masks of more lights for tiles of 32 pixels, the default, are larger than a buffer of a software device (1920x1080).
+constexpr std::uint32_t kMostLightsOfSmallMasks = 524288;
+
+std::vector<TechniqueChoice> choices_for(const std::vector<TechniqueChoice>& choices, std::uint32_t lights) {
     std::vector<TechniqueChoice> within;
     for (const TechniqueChoice& choice : choices)
         if (const Cap* cap = cap_of(choice); cap == nullptr || lights <= cap->most_lights) within.push_back(choice);
+    for (TechniqueChoice& choice : within)
+        if (choice.name == "z_bins" && lights > kMostLightsOfSmallMasks) choice.options = {{"tile_size", "64"}};
     return within;
 }
 
@@ -153,7 +158,7 @@ void add_cases(std::vector<Case>& cases, const Case& scene_case, const Plan& pla
         c.lights.count = lights;
         const bool is_main = contains(plan.main_lights, lights);
         if (is_main) c.rounds = plan.rounds;
-        c.techniques = within_caps(scene_case.techniques, lights);
+        c.techniques = choices_for(scene_case.techniques, lights);
         if (contains(plan.rival_lights, lights)) add_rivals(c.techniques, plan.is_overlap);
         for (const std::uint32_t camera : plan.cameras) {
             c.view = {false, camera};

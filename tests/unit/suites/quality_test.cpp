@@ -122,6 +122,18 @@ TEST(QualityCases, a_technique_is_left_out_above_its_cap_with_the_reason) {
     EXPECT_TRUE(quality_cases(options).skipped.empty());
 }
 
+TEST(QualityCases, masks_of_many_lights_have_larger_tiles) {
+    SuiteOptions options;
+    options.scenes = {"bars"};
+    options.lights = {65536, 1048576};
+    options.techniques = {"z_bins"};
+    for (const Case& c : quality_cases(options).cases) {
+        ASSERT_EQ(c.techniques.size(), 1u);
+        EXPECT_EQ(c.techniques[0].options,
+                  c.lights.count == 65536 ? OptionValues{} : (OptionValues{{"tile_size", "64"}}));
+    }
+}
+
 TEST(QualityCases, a_scene_that_is_not_there_is_skipped_with_the_reason) {
     SuiteOptions options;
     options.scenes = {"sponza"};
