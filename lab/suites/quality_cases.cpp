@@ -116,7 +116,7 @@ struct Cap {
 };
 constexpr Cap kCaps[] = {
     {"brute_force", 4096, "it tests each light at each point"},
-    {"light_volumes", 65536, "it draws 80 triangles for each"},
+    {"light_volumes", 4096, "it draws them all in one submission, which a software device does not end in time"},
 };
 
 const Cap* cap_of(const TechniqueChoice& choice) {
