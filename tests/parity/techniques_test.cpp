@@ -15,6 +15,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace manylights::lab {
@@ -83,7 +84,8 @@ void expect_sets_of_oracle(const View& view, std::vector<PixelRecord> got) {
 std::vector<Variant> first_variants() {
     std::vector<Variant> firsts;
     for (const Variant& variant : all_variants())
-        if (std::ranges::none_of(firsts, [&](const Variant& v) { return v.technique == variant.technique; }))
+        if (std::ranges::none_of(firsts,
+                                 [&](const Variant& v) { return std::string_view(v.technique) == variant.technique; }))
             firsts.push_back(variant);
     return firsts;
 }
