@@ -10,7 +10,7 @@ namespace manylights::lab::suites {
 namespace {
 
 constexpr Suite kSuites[] = {
-    {"quality", "lights tested, structure, modelled wave cost and shading time of all techniques in four scenes", true,
+    {"quality", "lights tested, structure, modelled wave cost and shading time of techniques in four scenes", true,
      schema, quality_steps, quality_tables},
     {"build", "build times of the library's structures beside the paper's pipeline and the floor of the machine", false,
      build_columns, build_steps, build_tables},

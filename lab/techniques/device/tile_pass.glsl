@@ -8,11 +8,14 @@
 // In a compute shader an invocation goes over the tiles of a light of its own, unless these are many: then the workgroup
 // goes over them together, so that one huge light does not keep one invocation busy for long. With MANYLIGHTS_FRAGMENT the
 // rasteriser finds the tiles: the target has a pixel per tile, and each light is drawn there as a rectangle, its
-// billboard, whose corners a vertex shader (MANYLIGHTS_VERTEX, without `visit`) takes from billboard_corner.
+// billboard, whose corners a vertex shader (MANYLIGHTS_VERTEX, without `visit`) takes from billboard_vertex.
 #ifndef MANYLIGHTS_LAB_TILE_PASS_GLSL
 #define MANYLIGHTS_LAB_TILE_PASS_GLSL
 
 #include "lab/techniques/device/device_view.glsl"
+#if defined(MANYLIGHTS_VERTEX)
+#include "lab/techniques/device/rectangle.glsl"
+#endif
 #include "lab/techniques/device/tile_grid.glsl"
 #include "lab/techniques/device/visible_light.glsl"
 
@@ -56,20 +59,17 @@ bool misses_tile(VisibleLight light, uvec2 tile) {
 
 #if defined(MANYLIGHTS_VERTEX)
 
-// A corner of the light's billboard, in tiles from the image's corner: of two triangles, 0 1 2 and 2 1 3. Snapped, it goes
-// around the tiles under the light's pixels, so that each of them has its centre inside and is drawn, once, by every
-// rasteriser, though none need be conservative.
-vec2 billboard_corner(VisibleLight light, uint vertex, bool is_snapped) {
-    const uint kCorners[6] = uint[6](0u, 1u, 2u, 2u, 1u, 3u);
-    uvec2 side = uvec2(kCorners[vertex] & 1u, kCorners[vertex] >> 1u);
+// A vertex of the light's billboard, a pixel per tile. Snapped, it goes around the tiles under the light's pixels, so that
+// each of them has its centre inside and is drawn, once, by every rasteriser, though none need be conservative.
+vec4 billboard_vertex(VisibleLight light, int vertex, bool is_snapped) {
     LightTiles tiles = tiles_of(light);
-    if (is_snapped) return vec2(tiles.first + side * tiles.size);
-    uvec2 pixel = first_pixel(light) + side * (last_pixel(light) + 1u - first_pixel(light));
-    return vec2(pixel) * vec2(grid.tiles) / vec2(grid.span);
+    vec2 first = vec2(tiles.first), end = vec2(tiles.first + tiles.size);
+    if (!is_snapped) {
+        first = vec2(first_pixel(light)) * vec2(grid.tiles) / vec2(grid.span);
+        end = vec2(last_pixel(light) + 1u) * vec2(grid.tiles) / vec2(grid.span);
+    }
+    return rectangle_vertex(vertex, first, end, vec2(grid.tiles));
 }
-
-// In the middle of the clip volume's depths, so that no billboard is clipped.
-vec4 clip_position(vec2 corner) { return vec4(2.0 * corner / vec2(grid.tiles) - 1.0, 0.5, 1.0); }
 
 #else
 

@@ -9,6 +9,5 @@ layout(location = 0) flat out uint light_number;
 
 void main() {
     light_number = gl_InstanceIndex;
-    vec2 corner = billboard_corner(lights.d[light_number], gl_VertexIndex, coverage != kPlain);
-    gl_Position = clip_position(corner);
+    gl_Position = billboard_vertex(lights.d[light_number], gl_VertexIndex, coverage != kPlain);
 }

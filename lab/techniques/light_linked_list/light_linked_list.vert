@@ -8,7 +8,7 @@ layout(location = 0) flat out uint rank;
 
 void main() {
     VisibleLight light = lights.d[gl_InstanceIndex];
-    gl_Position = rectangle_vertex(gl_VertexIndex, tile_of(grid, first_pixel(light)),
-                                   tile_of(grid, last_pixel(light)) + 1u, grid.tiles);
+    gl_Position = rectangle_vertex(gl_VertexIndex, vec2(tile_of(grid, first_pixel(light))),
+                                   vec2(tile_of(grid, last_pixel(light)) + 1u), vec2(grid.tiles));
     rank = uint(gl_InstanceIndex);
 }

@@ -48,13 +48,14 @@ void place_mesh(vec4 sphere) {
 void main() {
     light_index = 0u;
     if (kShape == kImage) {
-        gl_Position = rectangle_vertex(gl_VertexIndex, uvec2(0u), view.size, view.size);
+        gl_Position = rectangle_vertex(gl_VertexIndex, vec2(0.0), vec2(view.size), vec2(view.size));
         return;
     }
     VisibleLight light = lights.d[order.d[gl_InstanceIndex]];
     light_index = light.index;
     if (kShape == kRectangle)
-        gl_Position = rectangle_vertex(gl_VertexIndex, first_pixel(light), last_pixel(light) + 1u, view.size);
+        gl_Position = rectangle_vertex(gl_VertexIndex, vec2(first_pixel(light)), vec2(last_pixel(light) + 1u),
+                                       vec2(view.size));
     else
         place_mesh(light.sphere);
 }

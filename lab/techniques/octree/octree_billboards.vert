@@ -9,5 +9,5 @@ layout(location = 0) flat out uint light_number;
 
 void main() {
     light_number = gl_InstanceIndex;
-    gl_Position = clip_position(billboard_corner(lights.d[light_number], gl_VertexIndex, true));
+    gl_Position = billboard_vertex(lights.d[light_number], gl_VertexIndex, true);
 }
