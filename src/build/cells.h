@@ -2,8 +2,10 @@
 // Structures with depth slices: lists, trees and hybrid. A tile's records are put into the order of their depths, and
 // each of its slices takes those that reach it.
 //
-//   measure  the lights of each cell, and whether they get a list or a tree      cells_plan.cpp, cells_lanes.cpp
-//   write    records in order, nodes and references                              cells_write.cpp, tree.cpp
+//   record   each light's depths, in each of its tiles                          grid_records.cpp, tile_records.h
+//   sort     a tile's records by their depths, while they are in the cache      cells_lanes.cpp
+//   measure  the lights of each cell, and whether they get a list or a tree     cells_plan.cpp, cells_lanes.cpp
+//   write    nodes and references                                               cells_write.cpp, tree.cpp
 //
 // Nodes and references lie in the order of the tiles, and within a tile in that of its slices.
 
@@ -27,29 +29,59 @@ struct SliceLanes {
 };
 SliceLanes make_slice_lanes(const Slices& slices, double camera_near, float slice_far, float farthest);
 
-// Per slice: how many of a tile's lights reach it, and the sum of their depths within it.
+// Lights in three arrays.
+struct DepthArrays {
+    std::uint32_t* light;
+    float *low, *high;
+};
+
+// Scratch for the records of one tile.
+struct SortScratch {
+    float* middles;
+    std::uint32_t* keys;
+};
+
+// A tile's lights by the middle of their depths: as exact as a bin or two per light are.
+void sort_records(const TileRuns& runs, std::uint32_t count, const SortScratch& scratch, const DepthArrays& sorted);
+
+// Per slice: how many of a tile's lights reach it, the sum of their depths within it, and where they are among the
+// sorted ones: from the first to the last of them, others between.
 struct SliceSums {
     std::uint32_t counts[kMaxSlices + kLanePadding];
     float depths[kMaxSlices + kLanePadding];
+    std::uint32_t first[kMaxSlices + kLanePadding], end[kMaxSlices + kLanePadding];
 };
-void sum_slices(const SliceLanes& slices, const RecordRun* runs, std::uint32_t run_count, SliceSums& sums);
+void measure_slices(const SliceLanes& slices, const DepthArrays& sorted, std::uint32_t count, SliceSums& sums);
+
+// Of the sorted lights [begin, end) those that reach the slice, in order; returns how many.
+std::uint32_t pick_slice(const SliceLanes& slices, std::uint32_t slice, const DepthArrays& sorted, std::uint32_t begin,
+                         std::uint32_t end, const DepthArrays& cell);
 
 // Does a tree serve a cell better than a list? The mean over its lights of the depth range that lies in the cell is
 // compared with half of the cell's depth.
 bool prefers_tree(std::uint32_t count, float sum_of_depths, float cell_near, float cell_far);
 
 struct GridTile {
-    std::uint32_t first_reference, first_node;
+    std::uint32_t first_record; // where its lights are among the sorted ones of all tiles
     std::uint32_t record_count;
-    std::uint32_t reference_count, node_count;
+    std::uint32_t first_reference, first_node;
     std::uint16_t list_cells, tree_cells;
+    std::uint64_t reference_count, node_count;
+};
+
+// Of a tile and a slice.
+struct GridCell {
+    std::uint32_t count;      // lights
+    std::uint32_t begin, end; // among the tile's sorted lights: all of the cell's are there
+    std::uint32_t first;      // node (lists: reference), from the tile's first
 };
 
 struct Cells {
     Array<GridTile> tiles;
-    Array<std::uint32_t> counts;  // lights per tile and slice
-    Array<std::uint32_t> firsts;  // likewise: the first node (lists: reference), from the tile's first
-    Array<std::uint8_t> is_tree;  // likewise
+    Array<GridCell> cells;       // per tile: its slices
+    Array<std::uint8_t> is_tree; // likewise
+    Array<std::uint32_t> sorted_lights;
+    Array<float> sorted_low, sorted_high;
     Array<RecordRun> runs;        // per task that works on tiles
     Array<std::uint32_t> scratch; // likewise
     Array<DepthSpan> heaps;       // likewise
@@ -58,33 +90,19 @@ struct Cells {
     std::uint32_t largest_tile = 0;
     std::uint64_t list_cells = 0, tree_cells = 0;
 
+    DepthArrays sorted(const GridTile& tile) {
+        return {sorted_lights.data() + tile.first_record, sorted_low.data() + tile.first_record,
+                sorted_high.data() + tile.first_record};
+    }
     void use(const Allocator& allocator);
 };
 
-// Lights in three arrays.
-struct DepthArrays {
-    std::uint32_t* light;
-    float *low, *high;
-};
-
+// Scratch of a task that works on tiles.
 struct CellScratch {
     RecordRun* runs;
-    DepthArrays found, sorted, cell;
-    std::uint32_t* keys;
+    SortScratch sort;
+    DepthArrays cell;
     DepthSpan* heap;
 };
-
-// The tile's lights by the middle of their depths, in scratch.sorted: as exact as a bin or two per light are.
-void sort_records(std::uint32_t run_count, std::uint32_t count, const CellScratch& scratch);
-
-// Of the sorted lights [begin, end) those that reach the slice, in order; returns how many.
-std::uint32_t pick_slice(const SliceLanes& slices, std::uint32_t slice, const DepthArrays& sorted, std::uint32_t begin,
-                         std::uint32_t end, const DepthArrays& cell);
-
-// Where each slice's lights are among the sorted ones.
-struct SliceRanges {
-    std::uint32_t first[kMaxSlices + kLanePadding], end[kMaxSlices + kLanePadding];
-};
-void find_ranges(const SliceLanes& slices, const DepthArrays& sorted, std::uint32_t count, SliceRanges& ranges);
 
 } // namespace manylights::detail

@@ -11,9 +11,11 @@
 #define HWY_TARGET_INCLUDE "src/build/cells_lanes.cpp"
 #include <hwy/foreach_target.h>
 // foreach_target comes first.
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include "src/build/compaction-inl.h"
+#include "src/build/sums-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace manylights::detail::HWY_NAMESPACE {
@@ -44,32 +46,37 @@ HWY_INLINE void load_bounds(const float* begin, const float* end, SliceBounds (&
 }
 
 // In order, so that each slice's sum is the same with every vector.
-HWY_INLINE void sum_some(const SliceLanes& slices, std::uint32_t s, const RecordRun* runs, std::uint32_t run_count,
-                         SliceSums& sums) {
+HWY_INLINE void measure_some(const SliceLanes& slices, std::uint32_t s, const DepthArrays& sorted, std::uint32_t count,
+                             SliceSums& sums) {
     SliceBounds bounds[kVectors], depth_bounds[kVectors];
     load_bounds(slices.begin + s, slices.end + s, bounds);
     load_bounds(slices.near_depth + s, slices.far_depth + s, depth_bounds);
-    Words counts[kVectors];
+    Words counts[kVectors], behind[kVectors], before[kVectors];
     Floats depths[kVectors];
     std::fill_n(counts, kVectors, hn::Zero(kW));
+    std::fill_n(behind, kVectors, hn::Zero(kW));
+    std::fill_n(before, kVectors, hn::Zero(kW));
     std::fill_n(depths, kVectors, hn::Zero(kF));
-    for (std::uint32_t k = 0; k < run_count; ++k) {
-        prefetch_ahead(runs, run_count, k);
-        for (std::uint32_t i = 0; i < runs[k].count; ++i) {
-            const Floats low = hn::Set(kF, std::bit_cast<float>(runs[k].records[i].near_bits));
-            const Floats high = hn::Set(kF, std::bit_cast<float>(runs[k].records[i].far_bits));
-            for (std::uint32_t v = 0; v < kVectors; ++v) {
-                const Mask here = reaches(low, high, bounds[v].begin, bounds[v].end);
-                const Floats inside =
-                    hn::Max(hn::Min(high, depth_bounds[v].end) - hn::Max(low, depth_bounds[v].begin), hn::Zero(kF));
-                counts[v] = counts[v] + hn::IfThenElseZero(hn::RebindMask(kW, here), hn::Set(kW, 1));
-                depths[v] = depths[v] + hn::IfThenElseZero(here, inside);
-            }
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Floats low = hn::Set(kF, sorted.low[i]);
+        const Floats high = hn::Set(kF, sorted.high[i]);
+        for (std::uint32_t v = 0; v < kVectors; ++v) {
+            const Mask here = reaches(low, high, bounds[v].begin, bounds[v].end);
+            const Words ones = hn::VecFromMask(kW, hn::RebindMask(kW, here));
+            const Floats inside =
+                hn::Max(hn::Min(high, depth_bounds[v].end) - hn::Max(low, depth_bounds[v].begin), hn::Zero(kF));
+            counts[v] = counts[v] - ones;
+            behind[v] = hn::Max(behind[v], hn::And(ones, hn::Set(kW, i + 1)));
+            before[v] = hn::Max(before[v], hn::And(ones, hn::Set(kW, count - i)));
+            depths[v] = depths[v] + hn::IfThenElseZero(here, inside);
         }
     }
     for (std::size_t v = 0; v < kVectors; ++v) {
-        hn::StoreU(counts[v], kW, sums.counts + s + v * hn::Lanes(kF));
-        hn::StoreU(depths[v], kF, sums.depths + s + v * hn::Lanes(kF));
+        const std::size_t at = s + v * hn::Lanes(kF);
+        hn::StoreU(counts[v], kW, sums.counts + at);
+        hn::StoreU(depths[v], kF, sums.depths + at);
+        hn::StoreU(hn::Set(kW, count) - before[v], kW, sums.first + at);
+        hn::StoreU(behind[v], kW, sums.end + at);
     }
 }
 
@@ -84,104 +91,81 @@ constexpr std::uint32_t kLeastBins = 16, kMostBins = 4096;
 
 std::uint32_t bin_count(std::uint32_t lights) { return HWY_MAX(std::bit_ceil(HWY_MIN(lights, kMostBins)), kLeastBins); }
 
-// Unpacks the records; the range of their middles.
+// The middles of the records, and their range.
 struct Range {
     float low, high;
 };
-HWY_INLINE Range unpack(std::uint32_t run_count, const CellScratch& scratch) {
+HWY_INLINE Range find_middles(const TileRuns& runs, float* middles) {
     const Floats infinity = hn::Set(kF, std::numeric_limits<float>::infinity());
     Floats least = infinity;
     Floats most = hn::Neg(infinity);
-    std::uint32_t at = 0;
-    for (std::uint32_t k = 0; k < run_count; ++k) {
-        const RecordRun run = scratch.runs[k];
-        prefetch_ahead(scratch.runs, run_count, k);
+    float* out = middles;
+    for (std::uint32_t k = 0; k < runs.count; ++k) {
+        const RecordRun run = runs.runs[k];
         for (std::uint32_t i = 0; i < run.count; i += static_cast<std::uint32_t>(hn::Lanes(kF))) {
-            Words light, low_bits, high_bits;
-            hn::LoadInterleaved3(kW, reinterpret_cast<const std::uint32_t*>(run.records + i), light, low_bits,
-                                 high_bits);
-            const Floats low = hn::BitCast(kF, low_bits);
-            const Floats high = hn::BitCast(kF, high_bits);
+            Words light, low, high;
+            hn::LoadInterleaved3(kW, reinterpret_cast<const std::uint32_t*>(run.records + i), light, low, high);
             const Mask present = hn::FirstN(kF, run.count - i);
-            const Floats middle = middle_of(low, high);
+            const Floats middle = middle_of(hn::BitCast(kF, low), hn::BitCast(kF, high));
             least = hn::Min(least, hn::IfThenElse(present, middle, infinity));
             most = hn::Max(most, hn::IfThenElse(present, middle, hn::Neg(infinity)));
-            hn::StoreU(light, kW, scratch.found.light + at + i);
-            hn::StoreU(low, kF, scratch.found.low + at + i);
-            hn::StoreU(high, kF, scratch.found.high + at + i);
+            hn::StoreU(middle, kF, out + i);
         }
-        at += run.count;
+        out += run.count;
     }
     return {hn::GetLane(hn::MinOfLanes(kF, least)), hn::GetLane(hn::MaxOfLanes(kF, most))};
 }
 
-HWY_INLINE void find_keys(std::uint32_t count, std::uint32_t bins, const Range& range, const CellScratch& scratch) {
+HWY_INLINE void find_keys(std::uint32_t count, std::uint32_t bins, const Range& range, const SortScratch& scratch) {
     const float width = range.high - range.low;
     const float last = static_cast<float>(bins - 1);
     const Floats scale = hn::Set(kF, width > last * 1e-30f ? last / width : 0.0f);
     const Floats origin = hn::Set(kF, range.low);
     for (std::uint32_t i = 0; i < count; i += static_cast<std::uint32_t>(hn::Lanes(kF))) {
-        const Floats middle = middle_of(hn::LoadU(kF, scratch.found.low + i), hn::LoadU(kF, scratch.found.high + i));
-        const Floats key = hn::Min((middle - origin) * scale, hn::Set(kF, last));
+        const Floats key = hn::Min((hn::LoadU(kF, scratch.middles + i) - origin) * scale, hn::Set(kF, last));
         hn::StoreU(hn::BitCast(kW, hn::ConvertTo(kI, hn::Max(key, hn::Zero(kF)))), kW, scratch.keys + i);
     }
 }
 
-HWY_INLINE void find_some(const SliceLanes& slices, std::uint32_t s, const DepthArrays& sorted, std::uint32_t count,
-                          SliceRanges& ranges) {
-    SliceBounds bounds[kVectors];
-    load_bounds(slices.begin + s, slices.end + s, bounds);
-    Words first[kVectors], behind[kVectors];
-    std::fill_n(first, kVectors, hn::Set(kW, count));
-    std::fill_n(behind, kVectors, hn::Zero(kW));
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const Floats low = hn::Set(kF, sorted.low[i]);
-        const Floats high = hn::Set(kF, sorted.high[i]);
-        for (std::uint32_t v = 0; v < kVectors; ++v) {
-            const auto here = hn::RebindMask(kW, reaches(low, high, bounds[v].begin, bounds[v].end));
-            first[v] = hn::IfThenElse(here, hn::Min(first[v], hn::Set(kW, i)), first[v]);
-            behind[v] = hn::IfThenElse(here, hn::Set(kW, i + 1), behind[v]);
-        }
-    }
-    for (std::size_t v = 0; v < kVectors; ++v) {
-        hn::StoreU(first[v], kW, ranges.first + s + v * hn::Lanes(kF));
-        hn::StoreU(behind[v], kW, ranges.end + s + v * hn::Lanes(kF));
+// What will be written in another order than it lies there, as far as the cache next to the processor holds it.
+HWY_INLINE void prefetch(const DepthArrays& arrays, std::uint32_t count) {
+    for (std::uint32_t i = 0; i < HWY_MIN(count, 1024u); i += 64 / sizeof(float)) {
+        hwy::Prefetch(arrays.light + i);
+        hwy::Prefetch(arrays.low + i);
+        hwy::Prefetch(arrays.high + i);
     }
 }
 
 } // namespace
 
-void sum_slices(const SliceLanes& slices, const RecordRun* runs, std::uint32_t run_count, SliceSums& sums) {
-    for (std::uint32_t s = 0; s < slices.count; s += kTogether) sum_some(slices, s, runs, run_count, sums);
-}
-
 // A counting sort; lights of one bin stay in the order of the chunks.
-void sort_records(std::uint32_t run_count, std::uint32_t count, const CellScratch& scratch) {
+void sort_records(const TileRuns& runs, std::uint32_t count, const SortScratch& scratch, const DepthArrays& to) {
+    prefetch(to, count);
     const std::uint32_t bins = bin_count(count);
-    find_keys(count, bins, unpack(run_count, scratch), scratch);
+    find_keys(count, bins, find_middles(runs, scratch.middles), scratch);
     // Copies, so that no store may be taken for one to them.
     const std::uint32_t* const keys = scratch.keys;
-    const DepthArrays found = scratch.found;
-    const DepthArrays sorted = scratch.sorted;
-    std::uint32_t next[kMostBins];
+    const DepthArrays sorted = to;
+    HWY_ALIGN std::uint32_t next[kMostBins];
     std::memset(next, 0, bins * sizeof(std::uint32_t));
     for (std::uint32_t i = 0; i < count; ++i) ++next[keys[i]];
-    std::uint32_t sum = 0;
-    for (std::uint32_t b = 0; b < bins; ++b) {
-        const std::uint32_t here = next[b];
-        next[b] = sum;
-        sum += here;
-    }
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t at = next[keys[i]]++;
-        sorted.light[at] = found.light[i];
-        sorted.low[at] = found.low[i];
-        sorted.high[at] = found.high[i];
+    exclusive_sums(next, bins, 0);
+    std::uint32_t* places = scratch.keys; // all of them first, as in record_emitter-inl.h
+    for (std::uint32_t i = 0; i < count; ++i) places[i] = next[keys[i]]++;
+    for (std::uint32_t k = 0; k < runs.count; ++k) {
+        const RecordRun run = runs.runs[k];
+        for (std::uint32_t i = 0; i < run.count; ++i) {
+            const std::uint32_t at = places[i];
+            sorted.light[at] = run.records[i].light;
+            sorted.low[at] = std::bit_cast<float>(run.records[i].near_bits);
+            sorted.high[at] = std::bit_cast<float>(run.records[i].far_bits);
+        }
+        places += run.count;
     }
 }
 
-void find_ranges(const SliceLanes& slices, const DepthArrays& sorted, std::uint32_t count, SliceRanges& ranges) {
-    for (std::uint32_t s = 0; s < slices.count; s += kTogether) find_some(slices, s, sorted, count, ranges);
+void measure_slices(const SliceLanes& slices, const DepthArrays& sorted, std::uint32_t count, SliceSums& sums) {
+    for (std::uint32_t s = 0; s < slices.count; s += kTogether) measure_some(slices, s, sorted, count, sums);
 }
 
 std::uint32_t pick_slice(const SliceLanes& slices, std::uint32_t slice, const DepthArrays& sorted, std::uint32_t begin,
@@ -208,21 +192,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace manylights::detail {
 
-HWY_EXPORT(sum_slices);
 HWY_EXPORT(sort_records);
-HWY_EXPORT(find_ranges);
+HWY_EXPORT(measure_slices);
 HWY_EXPORT(pick_slice);
 
-void sum_slices(const SliceLanes& slices, const RecordRun* runs, std::uint32_t run_count, SliceSums& sums) {
-    HWY_DYNAMIC_DISPATCH(sum_slices)(slices, runs, run_count, sums);
+void sort_records(const TileRuns& runs, std::uint32_t count, const SortScratch& scratch, const DepthArrays& sorted) {
+    HWY_DYNAMIC_DISPATCH(sort_records)(runs, count, scratch, sorted);
 }
 
-void sort_records(std::uint32_t run_count, std::uint32_t count, const CellScratch& scratch) {
-    HWY_DYNAMIC_DISPATCH(sort_records)(run_count, count, scratch);
-}
-
-void find_ranges(const SliceLanes& slices, const DepthArrays& sorted, std::uint32_t count, SliceRanges& ranges) {
-    HWY_DYNAMIC_DISPATCH(find_ranges)(slices, sorted, count, ranges);
+void measure_slices(const SliceLanes& slices, const DepthArrays& sorted, std::uint32_t count, SliceSums& sums) {
+    HWY_DYNAMIC_DISPATCH(measure_slices)(slices, sorted, count, sums);
 }
 
 std::uint32_t pick_slice(const SliceLanes& slices, std::uint32_t slice, const DepthArrays& sorted, std::uint32_t begin,

@@ -9,25 +9,25 @@ namespace manylights::detail {
 
 namespace {
 
-constexpr std::size_t kScratchWords = 10; // per record, see CellScratch
+constexpr std::size_t kScratchWords = 5; // per record, see CellScratch
 
 // What each tile costs beside its records.
 std::uint64_t work_before(const ManylightsBuilder& builder, std::uint64_t tile) {
     const Cells& cells = builder.cells;
     const std::uint64_t per_tile = 32 + builder.slices.count;
     const std::uint64_t records =
-        tile < builder.records.tile_count ? cells.tiles[tile].first_reference : builder.records.count;
+        tile < builder.records.tile_count ? cells.tiles[tile].first_record : builder.records.count;
     return tile * per_tile + records;
 }
 
-// Where the records of the tiles before it end: until the cells are known, first_reference stands for that.
+// Puts the tile's records behind those of the tile before.
 void place_records(ManylightsBuilder& builder) {
     Cells& cells = builder.cells;
     cells.largest_tile = 0;
     std::uint32_t before = 0;
     for (std::uint64_t t = 0; t < builder.records.tile_count; ++t) {
         const std::uint32_t count = tile_record_count(builder.records, t);
-        cells.tiles[t] = {before, 0, count, 0, 0, 0, 0};
+        cells.tiles[t] = {before, count, 0, 0, 0, 0, 0, 0};
         cells.largest_tile = std::max(cells.largest_tile, count);
         before += count;
     }
@@ -47,7 +47,9 @@ bool prepare_tasks(ManylightsBuilder& builder) {
     cells.tile_tasks = static_cast<std::uint32_t>(
         std::min<std::uint64_t>(task_count_for(builder.settings, work, kWorkPerTask), useful));
     const std::size_t room = cells.largest_tile + kLanePadding;
-    return cells.scratch.resize(kScratchWords * room * cells.tile_tasks) &&
+    const std::size_t records = builder.records.count + kLanePadding;
+    return cells.sorted_lights.resize(records) && cells.sorted_low.resize(records) &&
+           cells.sorted_high.resize(records) && cells.scratch.resize(kScratchWords * room * cells.tile_tasks) &&
            cells.runs.resize(run_room(builder.records, cells.largest_tile) * cells.tile_tasks) &&
            cells.heaps.resize(heap_room(builder) * cells.tile_tasks);
 }
@@ -68,18 +70,28 @@ CellKind choose_kind(const Settings& settings, const SliceLanes& slices, std::ui
     return {static_cast<std::uint32_t>(tree_node_count(count, settings.leaf_size)), true};
 }
 
-void measure_tile_cells(ManylightsBuilder& builder, const SliceLanes& slices, std::uint64_t t, RecordRun* runs) {
+// All lights of a tile are those of its only slice.
+void measure_one_slice(std::uint32_t count, SliceSums& sums) {
+    sums.counts[0] = sums.end[0] = count;
+    sums.first[0] = 0;
+}
+
+void measure_cells(ManylightsBuilder& builder, const SliceLanes& slices, std::uint64_t t) {
     Cells& cells = builder.cells;
     GridTile& tile = cells.tiles[t];
-    const bool lists = builder.settings.structure == MANYLIGHTS_STRUCTURE_LISTS;
+    const std::uint32_t structure = builder.settings.structure;
+    const bool lists = structure == MANYLIGHTS_STRUCTURE_LISTS;
     SliceSums sums;
-    sum_slices(slices, runs, list_runs(builder.records, t, runs), sums);
+    if (slices.count == 1 && structure != MANYLIGHTS_STRUCTURE_HYBRID)
+        measure_one_slice(tile.record_count, sums);
+    else
+        measure_slices(slices, cells.sorted(tile), tile.record_count, sums);
     for (std::uint32_t s = 0; s < slices.count; ++s) {
-        const std::uint64_t cell = t * slices.count + s;
         const CellKind kind = choose_kind(builder.settings, slices, s, sums.counts[s], sums.depths[s]);
-        cells.counts[cell] = sums.counts[s];
+        const std::uint64_t cell = t * slices.count + s;
+        cells.cells[cell] = {sums.counts[s], sums.first[s], sums.end[s],
+                             static_cast<std::uint32_t>(lists ? tile.reference_count : tile.node_count)};
         cells.is_tree[cell] = kind.is_tree ? 1 : 0;
-        cells.firsts[cell] = lists ? tile.reference_count : tile.node_count;
         tile.reference_count += sums.counts[s];
         tile.node_count += kind.node_count;
         if (kind.is_tree)
@@ -91,16 +103,21 @@ void measure_tile_cells(ManylightsBuilder& builder, const SliceLanes& slices, st
 
 void measure_task(ManylightsBuilder& builder, std::uint32_t task) {
     const TileRecords& records = builder.records;
+    Cells& cells = builder.cells;
+    const CellScratch scratch = cell_scratch(builder, task);
     const auto before = [&](std::uint64_t tile) { return work_before(builder, tile); };
-    const Part part = part_of(before(records.tile_count), task, builder.cells.tile_tasks);
+    const Part part = part_of(before(records.tile_count), task, cells.tile_tasks);
     const std::uint64_t begin = first_with(records.tile_count, part.begin, before);
     const std::uint64_t end = first_with(records.tile_count, part.end, before);
-    RecordRun* runs = builder.cells.runs.data() + run_room(records, builder.cells.largest_tile) * task;
     for (std::uint32_t v = 0; v < builder.view_count; ++v) {
         const Grid& grid = builder.grids[v];
+        const std::uint64_t first = std::max(begin, grid.tile_offset);
         const std::uint64_t last = std::min(end, grid.tile_offset + grid.tile_count);
-        for (std::uint64_t t = std::max(begin, grid.tile_offset); t < last; ++t)
-            measure_tile_cells(builder, builder.cells.slices[v], t, runs);
+        for (std::uint64_t t = first; t < last; ++t) {
+            const GridTile& tile = cells.tiles[t];
+            sort_records(list_runs(records, t, scratch.runs), tile.record_count, scratch.sort, cells.sorted(tile));
+            measure_cells(builder, cells.slices[v], t);
+        }
     }
 }
 
@@ -164,20 +181,18 @@ CellScratch cell_scratch(ManylightsBuilder& builder, std::uint32_t task) {
     std::uint32_t* const words = cells.scratch.data() + kScratchWords * room * task;
     const auto floats = [&](std::size_t i) { return reinterpret_cast<float*>(words + i * room); };
     return {cells.runs.data() + run_room(builder.records, cells.largest_tile) * task,
+            {floats(3), words + 4 * room},
             {words, floats(1), floats(2)},
-            {words + 3 * room, floats(4), floats(5)},
-            {words + 6 * room, floats(7), floats(8)},
-            words + 9 * room,
             cells.heaps.data() + heap_room(builder) * task};
 }
 
 void Cells::use(const Allocator& allocator) {
+    for (Array<std::uint32_t>* array : {&sorted_lights, &scratch}) array->use(allocator);
+    for (Array<float>* array : {&sorted_low, &sorted_high}) array->use(allocator);
     tiles.use(allocator);
-    counts.use(allocator);
-    firsts.use(allocator);
+    cells.use(allocator);
     is_tree.use(allocator);
     runs.use(allocator);
-    scratch.use(allocator);
     heaps.use(allocator);
 }
 
@@ -188,8 +203,8 @@ Fit arrange_cells(ManylightsBuilder& builder, const ManylightsLights& lights, bo
     // Each record is at least one reference.
     const std::uint64_t budget = has_to_do ? most : builder.settings.max_bytes / sizeof(MlUint);
     if (Fit fit = collect_records(builder, lights, std::min(most, budget), has_to_do); fit != Fit::kFits) return fit;
-    if (!cells.tiles.resize(builder.records.tile_count) || !cells.counts.resize(counts.cells) ||
-        !cells.firsts.resize(counts.cells) || !cells.is_tree.resize(counts.cells))
+    if (!cells.tiles.resize(builder.records.tile_count) || !cells.cells.resize(counts.cells) ||
+        !cells.is_tree.resize(counts.cells))
         return Fit::kOutOfMemory;
     place_records(builder);
     if (!prepare_tasks(builder)) return Fit::kOutOfMemory;

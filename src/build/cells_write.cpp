@@ -15,14 +15,14 @@ void write_cells(const ManylightsBuilder& builder, const Grid& grid, std::uint64
     const bool lists = builder.settings.structure == MANYLIGHTS_STRUCTURE_LISTS;
     for (std::uint32_t s = 0; s < grid.slice_count; ++s) {
         for (std::uint64_t t = begin; t < end; ++t) {
-            const std::uint64_t cell = t * grid.slice_count + s;
+            const GridCell* const cell = &cells.cells[t * grid.slice_count + s];
             const GridTile& tile = cells.tiles[t];
-            const std::uint32_t behind = s + 1 < grid.slice_count ? cells.firsts[cell + 1]
+            const std::uint64_t behind = s + 1 < grid.slice_count ? cell[1].first
                                          : lists                  ? tile.reference_count
                                                                   : tile.node_count;
             const std::uint32_t first = lists ? tile.first_reference : tile.first_node;
-            out[grid.cell_offset() + s * grid.tile_count + (t - grid.tile_offset)] = {first + cells.firsts[cell],
-                                                                                      behind - cells.firsts[cell]};
+            out[grid.cell_offset() + s * grid.tile_count + (t - grid.tile_offset)] = {
+                first + cell->first, static_cast<std::uint32_t>(behind) - cell->first};
         }
     }
 }
@@ -33,11 +33,10 @@ struct Destination {
     std::uint32_t first_reference;
 };
 
-void write_cell(const ManylightsBuilder& builder, std::uint64_t cell, const DepthArrays& lights, DepthSpan* heap,
-                Destination& to) {
-    const std::uint32_t count = builder.cells.counts[cell];
+void write_cell(const ManylightsBuilder& builder, bool is_tree, const DepthArrays& lights, std::uint32_t count,
+                DepthSpan* heap, Destination& to) {
     const CellLights of_cell = {lights.low, lights.high, count, to.first_reference};
-    if (builder.cells.is_tree[cell] != 0)
+    if (is_tree)
         to.nodes = write_trees(of_cell, builder.settings.leaf_size, heap, to.nodes);
     else if (builder.settings.structure != MANYLIGHTS_STRUCTURE_LISTS)
         to.nodes = write_list(of_cell, to.nodes);
@@ -46,20 +45,22 @@ void write_cell(const ManylightsBuilder& builder, std::uint64_t cell, const Dept
     to.first_reference += count;
 }
 
-void write_tile(const ManylightsBuilder& builder, const SliceLanes& slices, std::uint64_t t, const CellScratch& scratch,
+void write_tile(ManylightsBuilder& builder, const SliceLanes& slices, std::uint64_t t, const CellScratch& scratch,
                 const ManylightsBuffers& buffers) {
-    const GridTile& tile = builder.cells.tiles[t];
+    Cells& cells = builder.cells;
+    const GridTile& tile = cells.tiles[t];
     if (tile.record_count == 0) return;
-    sort_records(list_runs(builder.records, t, scratch.runs), tile.record_count, scratch);
+    const DepthArrays sorted = cells.sorted(tile);
     Destination to = {static_cast<MlNode*>(buffers.nodes) + tile.first_node,
                       static_cast<MlUint*>(buffers.references) + tile.first_reference, tile.first_reference};
-    if (slices.count == 1) return write_cell(builder, t, scratch.sorted, scratch.heap, to);
-    SliceRanges ranges;
-    find_ranges(slices, scratch.sorted, tile.record_count, ranges);
     for (std::uint32_t s = 0; s < slices.count; ++s) {
-        if (builder.cells.counts[t * slices.count + s] == 0) continue;
-        pick_slice(slices, s, scratch.sorted, ranges.first[s], ranges.end[s], scratch.cell);
-        write_cell(builder, t * slices.count + s, scratch.cell, scratch.heap, to);
+        const std::uint64_t index = t * slices.count + s;
+        const GridCell& cell = cells.cells[index];
+        if (cell.count == 0) continue;
+        const bool are_all = cell.end - cell.begin == cell.count; // between the first and the last one
+        if (!are_all) pick_slice(slices, s, sorted, cell.begin, cell.end, scratch.cell);
+        const DepthArrays between = {sorted.light + cell.begin, sorted.low + cell.begin, sorted.high + cell.begin};
+        write_cell(builder, cells.is_tree[index] != 0, are_all ? between : scratch.cell, cell.count, scratch.heap, to);
     }
 }
 

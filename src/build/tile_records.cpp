@@ -8,6 +8,11 @@ namespace manylights::detail {
 
 namespace {
 
+std::uint32_t task_record_count(const RecordPool& pool, std::uint64_t tile) {
+    if (pool.chunks[tile] == 0) return 0;
+    return (pool.chunks[tile] - 1) * kChunkRecords + (pool.cursors[tile] - 1) % kChunkRecords + 1;
+}
+
 constexpr std::size_t kBufferRoom = kBufferedRecords + 2 * kLanePadding;
 constexpr std::size_t kTaskWords = 6 * std::size_t{kBlockRoom} + kSpanGroups + 4 * kBufferRoom;
 constexpr std::uint64_t kMostChunks = UINT32_MAX / kChunkRecords;
@@ -57,15 +62,32 @@ RecordBuffer buffer_of(ManylightsBuilder& builder, std::uint32_t task) {
             rows,  rows + room,         rows + 2 * room,         rows + 3 * room};
 }
 
+// Homes for all tiles of a task, as far as half of the chunks suffice; what is left is for those that need more.
+std::uint32_t assign_homes(TileRecords& records, std::uint32_t task, std::uint32_t capacity) {
+    std::uint32_t* const homes = records.homes.data() + (records.tile_count + 1) * task;
+    const std::uint32_t* const counts = records.last_counts.data() + records.tile_count * task;
+    std::uint64_t chunk = 1;
+    for (std::uint64_t t = 0; t < records.tile_count; ++t) {
+        homes[t] = static_cast<std::uint32_t>(chunk);
+        const std::uint64_t expected = counts[t] + counts[t] / std::uint64_t{8};
+        const std::uint64_t end = chunk + (expected + kChunkRecords - 1) / kChunkRecords;
+        if (end < capacity - capacity / 16) chunk = end;
+    }
+    homes[records.tile_count] = static_cast<std::uint32_t>(chunk);
+    return homes[records.tile_count];
+}
+
 RecordPool empty_pool(TileRecords& records, std::uint32_t task, std::uint32_t capacity) {
     std::uint32_t* const chains = records.chains.data() + 3 * records.tile_count * task;
+    const std::uint32_t used = assign_homes(records, task, capacity);
     RecordPool pool = {records.records.data() + std::size_t{capacity} * kChunkRecords * task,
                        records.next.data() + std::size_t{capacity} * task,
                        chains,
                        chains + 2 * records.tile_count,
                        chains + records.tile_count,
+                       records.homes.data() + (records.tile_count + 1) * task,
                        capacity,
-                       1};
+                       used};
     std::memset(chains, 0, 2 * records.tile_count * sizeof(std::uint32_t)); // cursors and chunks
     return pool;
 }
@@ -108,6 +130,7 @@ bool make_room(ManylightsBuilder& builder, std::uint32_t task_count, std::uint64
     TileRecords& records = builder.records;
     return records.tasks.resize(task_count) && records.records.resize(capacity * kChunkRecords * task_count) &&
            records.next.resize(capacity * task_count) && records.chains.resize(3 * records.tile_count * task_count) &&
+           records.homes.resize((records.tile_count + 1) * task_count) &&
            records.task_floats.resize(task_floats(builder) * task_count) &&
            records.task_words.resize(kTaskWords * task_count);
 }
@@ -116,6 +139,21 @@ bool make_room(ManylightsBuilder& builder, std::uint32_t task_count, std::uint64
 std::uint64_t expected_chunks(const TileRecords& records, std::uint32_t task_count, std::uint64_t estimate) {
     const std::uint64_t full = estimate / kChunkRecords / task_count;
     return std::min(full + full / 8 + std::min(records.tile_count, estimate) + 64, kMostChunks);
+}
+
+// Of other tiles, or of other tasks, nothing is known.
+bool keep_last_counts(TileRecords& records, std::uint32_t task_count) {
+    const std::size_t size = records.tile_count * task_count;
+    if (records.last_counts.size() == size) return true;
+    if (!records.last_counts.resize(size)) return false;
+    records.last_counts.fill_zero();
+    return true;
+}
+
+void note_counts(TileRecords& records) {
+    std::uint32_t* out = records.last_counts.data();
+    for (std::size_t task = 0; task < records.tasks.size(); ++task)
+        for (std::uint64_t t = 0; t < records.tile_count; ++t) *out++ = task_record_count(records.tasks[task].pool, t);
 }
 
 // What spans more than this, compared with what may be, does not fit when it is narrowed either.
@@ -161,7 +199,8 @@ bool list_results(ManylightsBuilder& builder) {
 
 void TileRecords::use(const Allocator& allocator) {
     for (Array<float>* array : {&sample_floats, &planes, &task_floats}) array->use(allocator);
-    for (Array<std::uint32_t>* array : {&sample_words, &next, &chains, &task_words}) array->use(allocator);
+    for (Array<std::uint32_t>* array : {&sample_words, &next, &chains, &homes, &last_counts, &task_words})
+        array->use(allocator);
     sample_spheres.use(allocator);
     tasks.use(allocator);
     records.use(allocator);
@@ -175,6 +214,7 @@ Fit collect_records(ManylightsBuilder& builder, const ManylightsLights& lights, 
     CollectJob job{builder, lights, block_count_for(lights.count), 0, {}, {}, {}, {}};
     if (!prepare_job(job)) return Fit::kOutOfMemory;
     const std::uint32_t task_count = light_task_count(builder, job.blocks, estimate);
+    if (!keep_last_counts(builder.records, task_count)) return Fit::kOutOfMemory;
     std::uint64_t capacity = expected_chunks(builder.records, task_count, estimate);
     for (;;) {
         if (!make_room(builder, task_count, capacity)) return Fit::kOutOfMemory;
@@ -184,32 +224,35 @@ Fit collect_records(ManylightsBuilder& builder, const ManylightsLights& lights, 
         if (most_used <= capacity) break;
         capacity = std::min(most_used + most_used / 8, kMostChunks);
     }
+    note_counts(builder.records);
     return list_results(builder) ? Fit::kFits : Fit::kOutOfMemory;
 }
 
 std::uint32_t tile_record_count(const TileRecords& records, std::uint64_t tile) {
     std::uint32_t count = 0;
-    for (std::size_t task = 0; task < records.tasks.size(); ++task) {
-        const RecordPool& pool = records.tasks[task].pool;
-        if (pool.chunks[tile] != 0)
-            count += (pool.chunks[tile] - 1) * kChunkRecords + (pool.cursors[tile] - 1) % kChunkRecords + 1;
-    }
+    for (std::size_t task = 0; task < records.tasks.size(); ++task)
+        count += task_record_count(records.tasks[task].pool, tile);
     return count;
 }
 
-std::uint32_t list_runs(const TileRecords& records, std::uint64_t tile, RecordRun* runs) {
+TileRuns list_runs(const TileRecords& records, std::uint64_t tile, RecordRun* runs) {
     std::uint32_t count = 0;
     for (std::size_t task = 0; task < records.tasks.size(); ++task) {
         const RecordPool& pool = records.tasks[task].pool;
         const std::uint32_t chunks = pool.chunks[tile];
         std::uint32_t chunk = pool.firsts[tile];
-        for (std::uint32_t c = 1; c <= chunks; ++c) {
-            const std::uint32_t filled = c < chunks ? kChunkRecords : (pool.cursors[tile] - 1) % kChunkRecords + 1;
-            runs[count++] = {pool.records + std::size_t{chunk} * kChunkRecords, filled};
-            chunk = pool.next[chunk];
+        for (std::uint32_t c = 1; c <= chunks;) {
+            RecordRun run = {pool.records + std::size_t{chunk} * kChunkRecords, 0};
+            for (bool is_behind = true; is_behind && c <= chunks; ++c) { // chunks side by side
+                run.count += c < chunks ? kChunkRecords : (pool.cursors[tile] - 1) % kChunkRecords + 1;
+                const std::uint32_t next = c < chunks ? pool.next[chunk] : 0;
+                is_behind = next == chunk + 1;
+                chunk = next;
+            }
+            runs[count++] = run;
         }
     }
-    return count;
+    return {runs, count};
 }
 
 } // namespace manylights::detail

@@ -73,7 +73,9 @@ struct NarrowView {
     std::uint32_t full_steps; // the last step of a tile
 };
 
-// The records of all tiles, as one task finds them. A tile has its own in a chain of chunks; chunk 0 is none's.
+// The records of all tiles, as one task finds them. A tile has its own in a chain of chunks; chunk 0 is none's. The
+// first ones are the tile's home: so many, side by side, as the tile had use for the last time, one tile behind the
+// other. So who reads all tiles reads one chunk behind the other, unless the lights jumped.
 constexpr std::uint32_t kChunkRecords = 32;
 struct RecordPool {
     TileRecord* records;
@@ -81,6 +83,7 @@ struct RecordPool {
     std::uint32_t* cursors; // per tile: behind its last record; 0: it has none
     std::uint32_t* firsts;  // per tile: its first chunk
     std::uint32_t* chunks;  // per tile: how many it has
+    std::uint32_t* homes;   // per tile: the first chunk of its home; behind it begins the next tile's
     std::uint32_t capacity; // in chunks
     std::uint32_t used;     // also where that is more than there are: then the records are worth nothing
 };
@@ -111,11 +114,16 @@ struct RecordRun {
     std::uint32_t count;
 };
 
+struct TileRuns {
+    const RecordRun* runs;
+    std::uint32_t count;
+};
+
 // The runs of a tile lie anywhere. Whoever reads them asks for some ahead, lest their lines be waited for in turn.
 constexpr std::uint32_t kRunsAhead = 6;
-inline void prefetch_ahead(const RecordRun* runs, std::uint32_t run_count, std::uint32_t k) {
-    if (k + kRunsAhead >= run_count) return;
-    const RecordRun& run = runs[k + kRunsAhead];
+inline void prefetch_ahead(const TileRuns& runs, std::uint32_t k) {
+    if (k + kRunsAhead >= runs.count) return;
+    const RecordRun& run = runs.runs[k + kRunsAhead];
     for (std::uint32_t i = 0; i < run.count; i += 64 / sizeof(TileRecord)) hwy::Prefetch(run.records + i);
 }
 
@@ -143,6 +151,8 @@ struct TileRecords {
     Array<TileRecord> records;         // per task
     Array<std::uint32_t> next;         // per task, see RecordPool
     Array<std::uint32_t> chains;       // per task and tile: cursors, firsts, chunks
+    Array<std::uint32_t> homes;        // likewise, and one behind
+    Array<std::uint32_t> last_counts;  // likewise: the records that there were the last time; or none are known
     Array<float> task_floats;          // per task: a block, and a buffer's rows
     Array<std::uint32_t> task_words;   // per task: a block, its spans, and a buffer
     std::uint64_t tile_count = 0;      // of all views
@@ -151,8 +161,8 @@ struct TileRecords {
     void use(const Allocator& allocator);
 };
 
-// A tile's records, in order: the runs, and their number.
-std::uint32_t list_runs(const TileRecords& records, std::uint64_t tile, RecordRun* runs);
+// A tile's records, in order.
+TileRuns list_runs(const TileRecords& records, std::uint64_t tile, RecordRun* runs);
 std::uint32_t tile_record_count(const TileRecords& records, std::uint64_t tile);
 // Runs that a tile of so many records may have: each task may leave a chunk unfilled.
 inline std::size_t run_room(const TileRecords& records, std::uint32_t largest_tile) {

@@ -4,8 +4,8 @@
 // codes, by one function for producer and reader.
 //
 //   record   each light's depths in each of its tiles, narrowed             windows_narrow.cpp, tile_records.h
-//   measure  each tile's classes and slices, so its exact size              windows_tile.cpp
-//   write    each tile's records in order, and the windows over them        windows_write.cpp
+//   measure  each tile's classes and slices, so its exact size              windows_tile.cpp, windows_cut.cpp
+//   write    each tile's records in order, and the windows over them        windows_tile.cpp, windows_write.cpp
 
 #include "src/build/tile_records.h"
 #include "src/format/layout.h"
@@ -23,7 +23,7 @@ struct WindowTile {
     std::uint32_t first_entry; // cell
     std::uint32_t base_code;
     std::uint32_t count;
-    std::uint32_t small_bits; // extents of so many bits belong to the first class
+    std::uint32_t small_bits, small_count; // extents of so many bits belong to the first class
     MlTileForm form;
 };
 
@@ -37,15 +37,17 @@ struct WindowReference {
     MlUint light, bounds;
 };
 
+constexpr std::uint32_t kClassSlices = 256; // slices of the large class are numbered from here
+
 // Scratch for the records of one tile.
 struct TileScratch {
     RecordRun* runs;
-    std::uint32_t* extents;
-    std::uint32_t* lights;
-    std::uint32_t* slices; // of the near end, with the class; of the far end << 16
-    std::uint32_t* bounds;
-    WindowReference* ordered;
+    std::uint32_t* keys; // class and slice of the near end, those of the far end << 16
+    std::uint32_t* places;
+    WindowReference *described, *ordered;
+    MlUint* entries; // kMostEntryWords
 };
+constexpr std::size_t kMostEntryWords = 4 * kClassSlices; // of two classes, and wide
 
 struct Windows {
     WindowView views[kMaxViews];
@@ -64,33 +66,23 @@ struct Windows {
 // in [2^(b - 127), 2^(b - 126)), bin 0 also all that are less.
 float choose_depth_scale(const std::uint32_t (&exponents)[256]);
 
-// Chooses the classes and slices of a tile with count records. All of the result but where it begins. count is at least
-// 1; extents is scratch.
-WindowTile measure_tile(const RecordRun* runs, std::uint32_t run_count, std::uint32_t count, std::uint32_t* extents);
-
 constexpr std::uint32_t kFlatReferences = 8; // up to so many, a table costs more than it saves
+constexpr std::uint32_t kExtentLimits = 27;
 
 // The extents of a tile's depth ranges. Of up to kFlatReferences only the largest matters, and the others are left out.
 struct Extents {
     std::uint32_t base_code, last_code;
-    std::uint32_t counts[26];  // of those below 2^bits
-    std::uint32_t largest[26]; // of those
-};
-Extents measure_extents(const RecordRun* runs, std::uint32_t run_count, std::uint32_t count, std::uint32_t* extents);
-
-// Of each record: its light, its class and slices, and the bounds that go to the reference.
-void describe_records(const WindowTile& tile, std::uint32_t run_count, const TileScratch& scratch);
-
-constexpr std::uint32_t kClassSlices = 256; // slices of the large class are numbered from here
-
-// Per slice of both classes: where its references end, and the first one of its window.
-struct TileWindows {
-    std::uint32_t end[2 * kClassSlices + 1];
-    std::uint32_t first[2 * kClassSlices];
+    std::uint32_t least, most;
+    std::uint32_t counts[kExtentLimits];  // of those below 2^bits
+    std::uint32_t largest[kExtentLimits]; // of those
 };
 
-// Puts described records into their final order: scratch.ordered.
-void order_records(const WindowTile& tile, const TileScratch& scratch, TileWindows& windows);
+// Chooses the classes and slices of a tile with count references, 1 at least. All of the result but where it begins.
+WindowTile cut_tile(const Extents& extents, std::uint32_t count);
+WindowTile measure_tile(const TileRuns& runs, std::uint32_t count, const TileScratch& scratch);
+
+// A tile's references in order, in scratch; its entries are in scratch.entries.
+const WindowReference* order_tile(const WindowTile& tile, const TileRuns& runs, const TileScratch& scratch);
 
 // The slice of a depth code that is not below the tile's base.
 inline std::uint32_t slice_of_code(const WindowTile& tile, std::uint32_t code) {

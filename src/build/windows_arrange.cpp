@@ -7,7 +7,7 @@ namespace manylights::detail {
 
 namespace {
 
-constexpr std::size_t kScratchWords = 1 + 1 + 1 + 1 + 2; // per record, see TileScratch
+constexpr std::size_t kScratchWords = 1 + 1 + 2 + 2; // per record, see TileScratch
 
 // What the result may have of references at the most, to be of use at this tile size.
 std::uint64_t reference_limit(const ManylightsBuilder& builder, bool has_to_do) {
@@ -41,6 +41,7 @@ void place_references(ManylightsBuilder& builder) {
 }
 
 std::size_t record_room(const Windows& windows) { return windows.largest_tile + kLanePadding; }
+std::size_t scratch_room(const Windows& windows) { return kScratchWords * record_room(windows) + kMostEntryWords; }
 
 // No more tasks than the largest tile leaves work for: each has room for that one.
 bool prepare_tile_tasks(ManylightsBuilder& builder) {
@@ -51,7 +52,7 @@ bool prepare_tile_tasks(ManylightsBuilder& builder) {
     const std::uint64_t useful = records.count / std::max(windows.largest_tile, 1u) + 1;
     windows.tile_tasks = static_cast<std::uint32_t>(
         std::min<std::uint64_t>(task_count_for(builder.settings, work, kWorkPerTask), useful));
-    return windows.scratch.resize(kScratchWords * record_room(windows) * windows.tile_tasks) &&
+    return windows.scratch.resize(scratch_room(windows) * windows.tile_tasks) &&
            windows.runs.resize(run_room(records, windows.largest_tile) * windows.tile_tasks);
 }
 
@@ -65,11 +66,11 @@ void measure_tiles(ManylightsBuilder& builder, std::uint32_t task) {
     for (std::uint64_t t = first_with(tile_count, part.begin, before); t < end; ++t) {
         WindowTile& tile = windows.tiles[t];
         WindowTile cut{};
-        if (tile.count != 0)
-            cut = measure_tile(scratch.runs, list_runs(builder.records, t, scratch.runs), tile.count, scratch.extents);
+        if (tile.count != 0) cut = measure_tile(list_runs(builder.records, t, scratch.runs), tile.count, scratch);
         // Not first_reference: other tasks read it, to find their parts.
         tile.base_code = cut.base_code;
         tile.small_bits = cut.small_bits;
+        tile.small_count = cut.small_count;
         tile.form = cut.form;
     }
 }
@@ -106,13 +107,13 @@ void Windows::use(const Allocator& allocator) {
 TileScratch tile_scratch(ManylightsBuilder& builder, std::uint32_t task) {
     Windows& windows = builder.windows;
     const std::size_t room = record_room(windows);
-    std::uint32_t* words = windows.scratch.data() + kScratchWords * room * task;
+    std::uint32_t* words = windows.scratch.data() + scratch_room(windows) * task;
     return {windows.runs.data() + run_room(builder.records, windows.largest_tile) * task,
             words,
             words + room,
-            words + 2 * room,
-            words + 3 * room,
-            reinterpret_cast<WindowReference*>(words + 4 * room)};
+            reinterpret_cast<WindowReference*>(words + 2 * room),
+            reinterpret_cast<WindowReference*>(words + 4 * room),
+            words + 6 * room};
 }
 
 Fit arrange_windows(ManylightsBuilder& builder, const ManylightsLights& lights, bool has_to_do) {

@@ -48,35 +48,38 @@ struct SpanGroup {
     bool is_clipped; // by the image's edge: then also the outermost planes cut
 };
 
-// The planes of a tile that cut, of tile number step of count along an axis: none towards where the light ends, unless
-// the image does.
+// The planes of a tile.
 struct TilePlanes {
     Floats before_offset, before_depth, behind_offset, behind_depth;
-    bool has_before, has_behind;
 };
 
-// first: the number of the lights' first tile, in the image.
-HWY_INLINE TilePlanes load_planes(const AxisPlanes& planes, Words first, std::uint32_t step, std::uint32_t count,
-                                  bool is_clipped) {
+// Which of them cut: of tile number step of count along an axis none towards where the light ends, unless the image
+// does.
+struct PlanesInUse {
+    bool before, behind;
+};
+HWY_INLINE PlanesInUse planes_in_use(std::uint32_t step, std::uint32_t count, bool is_clipped) {
+    return {step > 0 || is_clipped, step + 1 < count || is_clipped};
+}
+
+// first: the number of the lights' first tile, in the image. What is not in use is left as it is.
+HWY_INLINE void load_planes(const AxisPlanes& planes, Words first, std::uint32_t step, PlanesInUse use,
+                            TilePlanes& loaded) {
     const Ints tile = hn::BitCast(kI, first + hn::Set(kW, step));
-    TilePlanes loaded{};
-    loaded.has_before = step > 0 || is_clipped;
-    loaded.has_behind = step + 1 < count || is_clipped;
-    if (loaded.has_before) {
+    if (use.before) {
         loaded.before_offset = gather(planes.before_offset, tile);
         loaded.before_depth = gather(planes.before_depth, tile);
     }
-    if (loaded.has_behind) {
+    if (use.behind) {
         loaded.behind_offset = gather(planes.behind_offset, tile);
         loaded.behind_depth = gather(planes.behind_depth, tile);
     }
-    return loaded;
 }
 
-HWY_INLINE Cuts cut_tile(const Spheres& spheres, const TilePlanes& planes) {
+HWY_INLINE Cuts cut_tile(const Spheres& spheres, const TilePlanes& planes, PlanesInUse use) {
     Cuts cuts = uncut(spheres);
-    if (planes.has_before) cut_side(spheres, planes.before_offset, planes.before_depth, cuts);
-    if (planes.has_behind) cut_side(spheres, planes.behind_offset, planes.behind_depth, cuts);
+    if (use.before) cut_side(spheres, planes.before_offset, planes.before_depth, cuts);
+    if (use.behind) cut_side(spheres, planes.behind_offset, planes.behind_depth, cuts);
     return cuts;
 }
 
@@ -94,10 +97,10 @@ struct GroupLights {
     Mask present;
 };
 
-HWY_INLINE GroupLights load_lights(const NarrowView& view, const LightBlock& lights, const BlockSpans& spans,
-                                   std::uint32_t i, std::uint32_t end) {
-    const Mask present = hn::FirstN(kF, i < end ? end - i : 0);
-    const Words order = hn::IfThenElseZero(hn::RebindMask(kW, present), hn::LoadU(kW, spans.order + i));
+HWY_INLINE void load_lights(const NarrowView& view, const LightBlock& lights, const BlockSpans& spans, std::uint32_t i,
+                            std::uint32_t end, GroupLights& loaded) {
+    loaded.present = hn::FirstN(kF, i < end ? end - i : 0);
+    const Words order = hn::IfThenElseZero(hn::RebindMask(kW, loaded.present), hn::LoadU(kW, spans.order + i));
     const Ints at = hn::BitCast(kI, order);
     const Floats x = gather(lights.x, at);
     const Floats y = gather(lights.y, at);
@@ -105,29 +108,37 @@ HWY_INLINE GroupLights load_lights(const NarrowView& view, const LightBlock& lig
     const Floats radius = gather(lights.radius, at);
     const Floats slack = narrow_slack(x, y, depth, radius);
     const Words first = gather(spans.first_tile, at);
-    const Words column = hn::And(first, hn::Set(kW, 0xFFFF));
-    const Words row = hn::ShiftRight<16>(first);
-    const Words tile = hn::Set(kW, view.first_tile) + row * hn::Set(kW, view.tiles_x) + column;
-    return {{x, depth, radius, slack}, {y, depth, radius, slack}, column, row, tile,
-            gather(lights.index, at),  gather(spans.steps, at),   present};
+    loaded.along_x = {x, depth, radius, slack};
+    loaded.along_y = {y, depth, radius, slack};
+    loaded.first_column = hn::And(first, hn::Set(kW, 0xFFFF));
+    loaded.first_row = hn::ShiftRight<16>(first);
+    loaded.first_tile =
+        hn::Set(kW, view.first_tile) + loaded.first_row * hn::Set(kW, view.tiles_x) + loaded.first_column;
+    loaded.light = gather(lights.index, at);
+    loaded.steps = gather(spans.steps, at);
 }
 
 HWY_INLINE void narrow_row(const NarrowView& view, const SpanGroup& group, const GroupLights (&lights)[kVectors],
                            const TilePlanes (&columns)[kSmallSpan][kVectors], std::uint32_t r, Emitter& emitter) {
+    const PlanesInUse use = planes_in_use(r, group.rows, group.is_clipped);
     Cuts rows[kVectors];
     Spheres caps[kVectors];
     for (std::uint32_t v = 0; v < kVectors; ++v) {
         const GroupLights& l = lights[v];
-        rows[v] = cut_tile(l.along_y, load_planes(view.rows, l.first_row, r, group.rows, group.is_clipped));
+        TilePlanes planes;
+        load_planes(view.rows, l.first_row, r, use, planes);
+        rows[v] = cut_tile(l.along_y, planes, use);
         caps[v] = caps_of(l.along_x, rows[v]);
     }
     for (std::uint32_t c = 0; c < group.columns; ++c) {
+        const PlanesInUse use_column = planes_in_use(c, group.columns, group.is_clipped);
         for (std::uint32_t v = 0; v < kVectors; ++v) {
             const GroupLights& l = lights[v];
             const Records records = {l.first_tile + hn::Set(kW, r * view.tiles_x + c), l.light,
                                      steps_of(l.steps, c, group.columns, view.full_steps),
                                      steps_of(hn::ShiftRight<8>(l.steps), r, group.rows, view.full_steps)};
-            emit(view, records, cut_tile(caps[v], columns[c][v]), rows[v], l.along_x.slack, l.present, emitter);
+            emit(view, records, cut_tile(caps[v], columns[c][v], use_column), rows[v], l.along_x.slack, l.present,
+                 emitter);
         }
     }
 }
@@ -139,9 +150,10 @@ void narrow_group(const NarrowView& view, const LightBlock& lights, const BlockS
         GroupLights together[kVectors];
         TilePlanes columns[kSmallSpan][kVectors];
         for (std::uint32_t v = 0; v < kVectors; ++v) {
-            together[v] = load_lights(view, lights, spans, i + v * lanes, group.end);
+            load_lights(view, lights, spans, i + v * lanes, group.end, together[v]);
             for (std::uint32_t c = 0; c < group.columns; ++c)
-                columns[c][v] = load_planes(view.columns, together[v].first_column, c, group.columns, group.is_clipped);
+                load_planes(view.columns, together[v].first_column, c,
+                            planes_in_use(c, group.columns, group.is_clipped), columns[c][v]);
         }
         for (std::uint32_t r = 0; r < group.rows; ++r) narrow_row(view, group, together, columns, r, emitter);
     }
@@ -149,12 +161,8 @@ void narrow_group(const NarrowView& view, const LightBlock& lights, const BlockS
 
 // Of tiles [first, first + lanes) along an axis.
 HWY_INLINE TilePlanes load_planes(const AxisPlanes& planes, std::uint32_t first) {
-    return {hn::LoadU(kF, planes.before_offset + first),
-            hn::LoadU(kF, planes.before_depth + first),
-            hn::LoadU(kF, planes.behind_offset + first),
-            hn::LoadU(kF, planes.behind_depth + first),
-            true,
-            true};
+    return {hn::LoadU(kF, planes.before_offset + first), hn::LoadU(kF, planes.before_depth + first),
+            hn::LoadU(kF, planes.behind_offset + first), hn::LoadU(kF, planes.behind_depth + first)};
 }
 
 struct LargeLight {
@@ -186,7 +194,8 @@ HWY_INLINE LargeLight load_light(const LightBlock& lights, const BlockSpans& spa
 
 void cut_rows(const NarrowView& view, const LargeLight& light, const RecordBuffer& buffer) {
     for (std::uint32_t y = light.first_y; y <= light.last_y; y += static_cast<std::uint32_t>(hn::Lanes(kF))) {
-        const Cuts rows = light.narrows ? cut_tile(light.along_y, load_planes(view.rows, y)) : uncut(light.along_y);
+        const Cuts rows =
+            light.narrows ? cut_tile(light.along_y, load_planes(view.rows, y), {true, true}) : uncut(light.along_y);
         const Spheres caps = light.narrows ? caps_of(light.along_x, rows) : light.along_x;
         hn::StoreU(rows.low, kF, buffer.row_low + (y - light.first_y));
         hn::StoreU(rows.high, kF, buffer.row_high + (y - light.first_y));
@@ -215,7 +224,7 @@ void narrow_large(const NarrowView& view, const LargeLight& light, Emitter& emit
                               hn::Zero(kF)};
             const Spheres cap = {light.along_x.offset, hn::Set(kF, buffer.cap_depth[r]),
                                  hn::Set(kF, buffer.cap_radius[r]), light.along_x.slack};
-            const Cuts cut = light.narrows ? cut_tile(cap, planes) : uncut(cap);
+            const Cuts cut = light.narrows ? cut_tile(cap, planes, {true, true}) : uncut(cap);
             const std::uint32_t first_step = y == light.first_y ? (light.steps >> 8) & 15 : 0;
             const std::uint32_t last_step = y == light.last_y ? (light.steps >> 8) & 240 : view.full_steps << 4;
             const Records records = {column + hn::Set(kW, view.first_tile + y * view.tiles_x), hn::Set(kW, light.light),

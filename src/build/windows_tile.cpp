@@ -1,10 +1,10 @@
-// How each tile is cut: its extents a vector of records at a time, and the choice itself.
+// How a tile is cut, and its references in order with the windows over them: a vector of records or of slices at a
+// time, but for the loops of the counting sort.
 #include "src/build/windows.h"
-
-#include "src/format/layout.h"
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 #include "src/build/lanes.h"
 
@@ -14,13 +14,22 @@
 // foreach_target comes first.
 #include <hwy/highway.h>
 
+#include "src/build/sums-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace manylights::detail::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using Words = hn::Vec<hn::ScalableTag<std::uint32_t>>;
+using Ints = hn::Vec<hn::ScalableTag<std::int32_t>>;
 constexpr hn::ScalableTag<std::uint32_t> kW;
+constexpr hn::ScalableTag<std::int32_t> kI;
+
+HWY_INLINE std::uint32_t lane_count() { return static_cast<std::uint32_t>(hn::Lanes(kW)); }
+
+// What is below no limit: extents are compared as signed numbers.
+constexpr std::uint32_t kNoExtent = 0x7FFFFFFF;
 
 struct RecordLanes {
     Words light, near_bits, far_bits, near_code, far_code;
@@ -34,35 +43,18 @@ HWY_INLINE RecordLanes load_records(const TileRecord* records) {
     return r;
 }
 
-// Counts the extents below 2^bits and finds the largest of them. Behind the last one are those that are below none.
-HWY_INLINE void count_below(const std::uint32_t* values, std::uint32_t count, std::uint32_t bits, Extents& extents) {
-    const Words limit = hn::Set(kW, 1u << bits);
-    Words largest = hn::Zero(kW);
-    std::size_t below = 0;
-    for (std::uint32_t i = 0; i < count; i += static_cast<std::uint32_t>(hn::Lanes(kW))) {
-        const Words v = hn::LoadU(kW, values + i);
-        const auto mask = v < limit;
-        below += hn::CountTrue(kW, mask);
-        largest = hn::Max(largest, hn::IfThenElseZero(mask, v));
-    }
-    extents.counts[bits] = static_cast<std::uint32_t>(below);
-    extents.largest[bits] = hn::GetLane(hn::MaxOfLanes(kW, largest));
-}
-
-} // namespace
-
-Extents measure_extents(const RecordRun* runs, std::uint32_t run_count, std::uint32_t count, std::uint32_t* values) {
-    const auto lanes = static_cast<std::uint32_t>(hn::Lanes(kW));
+// The range of codes, and the extents and their range.
+HWY_INLINE void find_extents(const TileRuns& runs, std::uint32_t* values, Extents& extents) {
     const Words nothing = hn::Set(kW, ~0u);
     Words base = nothing;
     Words last = hn::Zero(kW);
     Words least = nothing;
     Words most = hn::Zero(kW);
     std::uint32_t* out = values;
-    for (std::uint32_t k = 0; k < run_count; ++k) {
-        const RecordRun run = runs[k];
-        prefetch_ahead(runs, run_count, k);
-        for (std::uint32_t i = 0; i < run.count; i += lanes) {
+    for (std::uint32_t k = 0; k < runs.count; ++k) {
+        const RecordRun run = runs.runs[k];
+        prefetch_ahead(runs, k);
+        for (std::uint32_t i = 0; i < run.count; i += lane_count()) {
             const RecordLanes r = load_records(run.records + i);
             const auto present = hn::FirstN(kW, run.count - i);
             const Words extent = r.far_code - r.near_code;
@@ -74,39 +66,67 @@ Extents measure_extents(const RecordRun* runs, std::uint32_t run_count, std::uin
         }
         out += run.count;
     }
-    hn::StoreU(nothing, kW, out); // below no limit
-    Extents extents = {hn::GetLane(hn::MinOfLanes(kW, base)), hn::GetLane(hn::MaxOfLanes(kW, last)), {}, {}};
-    const std::uint32_t largest = hn::GetLane(hn::MaxOfLanes(kW, most));
-    const auto first_bits = static_cast<std::uint32_t>(std::bit_width(hn::GetLane(hn::MinOfLanes(kW, least))));
-    const auto end_bits = static_cast<std::uint32_t>(std::bit_width(largest));
+    hn::StoreU(hn::Set(kW, kNoExtent), kW, out);
+    extents.base_code = hn::GetLane(hn::MinOfLanes(kW, base));
+    extents.last_code = hn::GetLane(hn::MaxOfLanes(kW, last));
+    extents.least = hn::GetLane(hn::MinOfLanes(kW, least));
+    extents.most = hn::GetLane(hn::MaxOfLanes(kW, most));
+}
+
+// Counts the extents below 2^bits and finds the largest of them; the same for one bit more.
+HWY_INLINE void count_below(const std::uint32_t* values, std::uint32_t count, std::uint32_t bits, Extents& extents) {
+    const Ints limits[2] = {hn::Set(kI, 1 << bits), hn::Set(kI, 2 << bits)};
+    Ints below[2] = {hn::Zero(kI), hn::Zero(kI)};
+    Ints largest[2] = {hn::Zero(kI), hn::Zero(kI)};
+    for (std::uint32_t i = 0; i < count; i += lane_count()) {
+        const Ints v = hn::BitCast(kI, hn::LoadU(kW, values + i));
+        for (int k = 0; k < 2; ++k) {
+            const auto is_below = v < limits[k];
+            below[k] = below[k] - hn::VecFromMask(kI, is_below);
+            largest[k] = hn::Max(largest[k], hn::IfThenElseZero(is_below, v));
+        }
+    }
+    for (std::uint32_t k = 0; k < 2; ++k) {
+        extents.counts[bits + k] = static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(kI, below[k])));
+        extents.largest[bits + k] = static_cast<std::uint32_t>(hn::GetLane(hn::MaxOfLanes(kI, largest[k])));
+    }
+}
+
+HWY_INLINE Extents measure_extents(const TileRuns& runs, std::uint32_t count, std::uint32_t* values) {
+    Extents extents{};
+    find_extents(runs, values, extents);
+    const auto first_bits = static_cast<std::uint32_t>(std::bit_width(extents.least));
+    const auto end_bits = static_cast<std::uint32_t>(std::bit_width(extents.most));
     if (count > kFlatReferences)
-        for (std::uint32_t bits = first_bits; bits < end_bits; ++bits) count_below(values, count, bits, extents);
-    for (std::uint32_t bits = end_bits; bits < 26; ++bits) {
+        for (std::uint32_t bits = first_bits; bits < end_bits; bits += 2) count_below(values, count, bits, extents);
+    for (std::uint32_t bits = end_bits; bits < kExtentLimits; ++bits) {
         extents.counts[bits] = count;
-        extents.largest[bits] = largest;
+        extents.largest[bits] = extents.most;
     }
     return extents;
 }
 
-void describe_records(const WindowTile& tile, std::uint32_t run_count, const TileScratch& scratch) {
+// Of each record: its keys in the counting sort, and the reference.
+HWY_INLINE void describe(const WindowTile& tile, const TileRuns& runs, const TileScratch& scratch) {
     const Words base = hn::Set(kW, tile.base_code);
     const Words limit = hn::Set(kW, 1u << tile.small_bits);
     const Words slice_shift = hn::Set(kW, tile.form.slice_shift);
     const Words small_shift = hn::Set(kW, tile.form.small_shift);
     const Words large_shift = hn::Set(kW, tile.form.large_shift);
-    std::uint32_t at = 0;
-    for (std::uint32_t k = 0; k < run_count; ++k) {
-        const RecordRun run = scratch.runs[k];
-        prefetch_ahead(scratch.runs, run_count, k);
-        for (std::uint32_t i = 0; i < run.count; i += static_cast<std::uint32_t>(hn::Lanes(kW))) {
+    const Words large_class = hn::Set(kW, kClassSlices | (kClassSlices << 16));
+    std::uint32_t* keys = scratch.keys;
+    std::uint32_t* described = reinterpret_cast<std::uint32_t*>(scratch.described);
+    for (std::uint32_t k = 0; k < runs.count; ++k) {
+        const RecordRun run = runs.runs[k];
+        prefetch_ahead(runs, k);
+        for (std::uint32_t i = 0; i < run.count; i += lane_count()) {
             const RecordLanes r = load_records(run.records + i);
             const auto small = r.far_code - r.near_code < limit;
             const Words near_slice = hn::Shr(r.near_code - base, slice_shift);
             const Words far_slice = hn::Shr(r.far_code - base, slice_shift);
-            const Words of_class = hn::IfThenElseZero(hn::Not(small), hn::Set(kW, kClassSlices));
-            hn::StoreU(r.light, kW, scratch.lights + at + i);
-            hn::StoreU(hn::Or(near_slice + of_class, hn::ShiftLeft<16>(far_slice + of_class)), kW,
-                       scratch.slices + at + i);
+            hn::StoreU(hn::Or(near_slice, hn::ShiftLeft<16>(far_slice)) +
+                           hn::IfThenElseZero(hn::Not(small), large_class),
+                       kW, keys + i);
             // ml_pack_bounds.
             const Words shift = hn::IfThenElse(small, small_shift, large_shift);
             const Words low = hn::Shr(r.near_code, shift);
@@ -114,10 +134,112 @@ void describe_records(const WindowTile& tile, std::uint32_t run_count, const Til
             const Words x = hn::ShiftLeft<16>(hn::ShiftRight<24>(r.near_bits));
             const Words y = hn::And(r.far_bits, hn::Set(kW, 0xFF000000u));
             const Words depth = hn::Or(hn::And(low, hn::Set(kW, 255)), hn::ShiftLeft<8>(extent));
-            hn::StoreU(hn::Or(hn::Or(depth, x), y), kW, scratch.bounds + at + i);
+            hn::StoreInterleaved2(r.light, hn::Or(hn::Or(depth, x), y), kW, described + 2 * std::size_t{i});
         }
-        at += run.count;
+        keys += run.count;
+        described += 2 * std::size_t{run.count};
     }
+}
+
+// Per slice of both classes: where its references end; and how far before the tile's last reference the first one is
+// that ends in the slice. A class's slices are in its own half.
+struct Tables {
+    HWY_ALIGN std::uint32_t end[2 * kClassSlices];
+    HWY_ALIGN std::uint32_t lead[2 * kClassSlices];
+};
+
+// A counting sort by class and slice of the near end. Within a slice the order stays: that of the chunks.
+HWY_INLINE void sort_described(const WindowTile& tile, std::uint32_t slots, const TileScratch& scratch,
+                               Tables& tables) {
+    // Copies, so that no store may be taken for one to them.
+    const std::uint32_t count = tile.count;
+    const std::uint32_t* const keys = scratch.keys;
+    const WindowReference* const described = scratch.described;
+    WindowReference* const ordered = scratch.ordered;
+    for (std::uint32_t i = 0; i < count; ++i) ++tables.end[keys[i] & 0xFFFF];
+    exclusive_sums(tables.end, slots, 0);
+    if (tile.form.two_classes != 0) exclusive_sums(tables.end + kClassSlices, slots, tile.small_count);
+    std::uint32_t* const places = scratch.places; // all of them first, as in record_emitter-inl.h
+    for (std::uint32_t i = 0; i < count; ++i) places[i] = tables.end[keys[i] & 0xFFFF]++;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        std::uint32_t& lead = tables.lead[keys[i] >> 16];
+        lead = HWY_MAX(lead, count - places[i]);
+    }
+    for (std::uint32_t i = 0; i < count; ++i) ordered[places[i]] = described[i];
+}
+
+// The entries, from the last slice to the first. The window of a slice ends behind the last reference that begins in it
+// or before, and begins with the first one of all that end in it or behind: what is before that one ends before the
+// slice. Where nothing reaches a slice its window is empty: the next one to begin ends behind it, so first is last.
+class EntryWriter {
+  public:
+    EntryWriter(const WindowTile& tile, const Tables& tables, MlUint* entries)
+        : tables_(tables), entries_(entries),
+          count_(hn::Set(kSlots, tile.count)), leads_{hn::Set(kSlots, tile.count - tile.small_count),
+                                                      hn::Zero(kSlots)} {}
+
+    void write(std::uint32_t slots, const MlTileForm& form) {
+        for (std::uint32_t s = slots; s != 0;) {
+            s -= kSlotLanes;
+            const Window small = window_of(0, s);
+            if (form.two_classes != 0)
+                write_both(s, form.wide != 0, small, window_of(1, s));
+            else if (form.wide != 0)
+                hn::StoreInterleaved2(small.first, small.end, kSlots, entries_ + 2 * std::size_t{s});
+            else
+                hn::StoreU(pack(small), kSlots, entries_ + s);
+        }
+    }
+
+  private:
+    struct Window {
+        Slots first, end;
+    };
+    HWY_INLINE Window window_of(std::uint32_t of_class, std::uint32_t slice) {
+        const std::uint32_t slot = of_class * kClassSlices + slice;
+        const Slots lead = suffix_maxima(hn::LoadU(kSlots, tables_.lead + slot), leads_[of_class]);
+        return {count_ - lead, hn::LoadU(kSlots, tables_.end + slot)};
+    }
+    static HWY_INLINE Slots pack(const Window& window) { return hn::Or(window.first, hn::ShiftLeft<16>(window.end)); }
+    HWY_INLINE void write_both(std::uint32_t s, bool wide, const Window& small, const Window& large) {
+        if (wide)
+            hn::StoreInterleaved4(small.first, small.end, large.first, large.end, kSlots,
+                                  entries_ + 4 * std::size_t{s});
+        else
+            hn::StoreInterleaved2(pack(small), pack(large), kSlots, entries_ + 2 * std::size_t{s});
+    }
+
+    const Tables& tables_;
+    MlUint* entries_;
+    const Slots count_;
+    Slots leads_[2]; // of the slices behind
+};
+
+HWY_INLINE void order_slices(const WindowTile& tile, const TileScratch& scratch) {
+    const std::uint32_t slices = tile.form.last_slice + 1;
+    const std::uint32_t slots = round_up_slots(slices);
+    Tables tables;
+    for (std::uint32_t c = 0; c <= tile.form.two_classes; ++c) {
+        std::memset(tables.end + c * kClassSlices, 0, slots * sizeof(std::uint32_t));
+        std::memset(tables.lead + c * kClassSlices, 0, slots * sizeof(std::uint32_t));
+    }
+    sort_described(tile, slots, scratch, tables);
+    EntryWriter(tile, tables, scratch.entries).write(slots, tile.form);
+    const std::uint32_t words = slices << (tile.form.two_classes + tile.form.wide);
+    if (words % 2 != 0) scratch.entries[words] = 0;
+}
+
+} // namespace
+
+WindowTile measure_tile(const TileRuns& runs, std::uint32_t count, const TileScratch& scratch) {
+    return cut_tile(measure_extents(runs, count, scratch.places), count);
+}
+
+const WindowReference* order_tile(const WindowTile& tile, const TileRuns& runs, const TileScratch& scratch) {
+    describe(tile, runs, scratch);
+    if (tile.form.flat_count != 0) return scratch.described;
+    order_slices(tile, scratch);
+    return scratch.ordered;
 }
 
 } // namespace manylights::detail::HWY_NAMESPACE
@@ -126,123 +248,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace manylights::detail {
 
-HWY_EXPORT(measure_extents);
-HWY_EXPORT(describe_records);
+HWY_EXPORT(measure_tile);
+HWY_EXPORT(order_tile);
 
-Extents measure_extents(const RecordRun* runs, std::uint32_t run_count, std::uint32_t count, std::uint32_t* values) {
-    return HWY_DYNAMIC_DISPATCH(measure_extents)(runs, run_count, count, values);
+WindowTile measure_tile(const TileRuns& runs, std::uint32_t count, const TileScratch& scratch) {
+    return HWY_DYNAMIC_DISPATCH(measure_tile)(runs, count, scratch);
 }
 
-void describe_records(const WindowTile& tile, std::uint32_t run_count, const TileScratch& scratch) {
-    HWY_DYNAMIC_DISPATCH(describe_records)(tile, run_count, scratch);
-}
-
-namespace {
-
-constexpr std::uint32_t kExtentBits = 25; // 0 to 24 of them
-
-// Two classes: the ranges of fewer than small_bits bits, and the others; or one class, and large_count is 0.
-struct Classes {
-    std::uint32_t small_bits;
-    std::uint32_t small_count, large_count;
-    std::uint32_t small_extent, large_extent; // the largest of the class
-};
-
-// Those of so many bits and fewer are below 2^bits.
-Classes split_at(const Extents& extents, std::uint32_t small_bits) {
-    const std::uint32_t count = extents.counts[kExtentBits];
-    const std::uint32_t below = extents.counts[small_bits];
-    return {small_bits, below, count - below, extents.largest[small_bits],
-            below != count ? extents.largest[kExtentBits] : 0};
-}
-
-// A depth's window holds about all references of a class that begin within the class's largest extent of it: so many,
-// times the tile's depth.
-std::uint64_t checks_of(const Classes& classes) {
-    return static_cast<std::uint64_t>(classes.small_count) * classes.small_extent +
-           static_cast<std::uint64_t>(classes.large_count) * classes.large_extent;
-}
-
-// The split with the fewest checks, if it saves two of them on average; its second word per slice costs as much to
-// read.
-Classes choose_classes(const Extents& extents) {
-    const Classes together = split_at(extents, kExtentBits);
-    const std::uint64_t depth = extents.last_code - extents.base_code + 1;
-    Classes best = together;
-    for (std::uint32_t bits = 0; bits < kExtentBits; ++bits) {
-        if (extents.counts[bits] == (bits != 0 ? extents.counts[bits - 1] : 0)) continue; // the same split again
-        const Classes split = split_at(extents, bits);
-        if (split.large_count == 0) break;
-        if (checks_of(split) < checks_of(best)) best = split;
-    }
-    return checks_of(best) + 2 * depth <= checks_of(together) ? best : together;
-}
-
-// Slices are a power of two wide, the least such that there are at most most_slices of them.
-std::uint32_t slice_shift_for(std::uint32_t depth_span, std::uint32_t most_slices) {
-    std::uint32_t shift = 0;
-    while ((depth_span >> shift) >= most_slices) ++shift;
-    return shift;
-}
-
-// At most 256 slices, 3/2 of the references, and no finer than a sixth of the small references' extent; a power of two
-// leaves the tile between half as many and all. Half of both costs 1 to 8 % more per wave (65,536 and 8,192 lights) for
-// 2 to 20 % fewer bytes; extents cut twice as fine cost 2 to 4 % less for up to 19 % more.
-std::uint32_t most_slices(const Classes& classes, std::uint32_t count, std::uint64_t depth) {
-    const std::uint64_t by_count = static_cast<std::uint64_t>(count) * 3 / 2;
-    const std::uint64_t by_extent = 6 * depth / std::max(classes.small_extent, 1u);
-    return static_cast<std::uint32_t>(std::min<std::uint64_t>({ML_TILE_SLICES_MAX, by_count, by_extent}));
-}
-
-// The units that a class's depths are kept in: the finest in which no reference of a window is taken for one that holds
-// a depth 256 units off. From a depth, near ends lie up to a slice farther and up to an extent and a slice nearer.
-std::uint32_t reference_shift(std::uint32_t extent, std::uint32_t slice_shift) {
-    std::uint32_t shift = 0;
-    while ((extent >> shift) + 1 + ((2u << slice_shift) >> shift) > 255) ++shift;
-    return shift;
-}
-
-MlTileForm one_slice(const Extents& extents, const Classes& together, std::uint32_t count) {
-    MlTileForm form{};
-    form.slice_shift = slice_shift_for(extents.last_code - extents.base_code, 1);
-    form.small_shift = reference_shift(together.small_extent, form.slice_shift);
-    form.wide = count > ML_WINDOW_NARROW_MAX ? 1 : 0;
-    form.flat_count = count <= ML_TILE_FLAT_MAX ? count : 0;
-    if (ml_pack_tile_form(form) == 0) form.slice_shift = 1; // a form of 0 says that there is no reference
-    return form;
-}
-
-MlTileForm choose_form(const Extents& extents, std::uint32_t count, Classes& classes) {
-    classes = choose_classes(extents);
-    const std::uint32_t span = extents.last_code - extents.base_code;
-    const std::uint32_t most = most_slices(classes, count, std::uint64_t{span} + 1);
-    const std::uint32_t shift = slice_shift_for(span, std::max(most, 1u));
-    const std::uint32_t last_slice = span >> shift;
-    if (count <= kFlatReferences || last_slice < 2) {
-        classes = split_at(extents, kExtentBits);
-        return one_slice(extents, classes, count);
-    }
-    MlTileForm form{};
-    form.slice_shift = shift;
-    form.last_slice = last_slice;
-    form.wide = count > ML_WINDOW_NARROW_MAX ? 1 : 0;
-    form.two_classes = classes.large_count != 0 ? 1 : 0;
-    form.small_shift = reference_shift(classes.small_extent, shift);
-    if (form.two_classes != 0) form.large_shift = reference_shift(classes.large_extent, shift);
-    return form;
-}
-
-} // namespace
-
-WindowTile measure_tile(const RecordRun* runs, std::uint32_t run_count, std::uint32_t count, std::uint32_t* values) {
-    const Extents extents = measure_extents(runs, run_count, count, values);
-    Classes classes{};
-    WindowTile tile{};
-    tile.base_code = extents.base_code;
-    tile.count = count;
-    tile.form = choose_form(extents, count, classes);
-    tile.small_bits = classes.small_bits;
-    return tile;
+const WindowReference* order_tile(const WindowTile& tile, const TileRuns& runs, const TileScratch& scratch) {
+    return HWY_DYNAMIC_DISPATCH(order_tile)(tile, runs, scratch);
 }
 
 } // namespace manylights::detail

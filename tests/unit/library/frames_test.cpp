@@ -99,6 +99,27 @@ TEST(Records, TakeTheRoomThatTheyNeed) {
     }
 }
 
+// A builder lays out its records by the last frame's. Whatever that was, the bytes are those of a new one.
+TEST(Records, DoNotShowWhatTheLastFrameWas) {
+    std::vector<ManylightsSphere> near_left, far_right;
+    for (const ManylightsSphere& light : make_lights(6000, 41, 10.0, 0.2, 2.0)) {
+        near_left.push_back({{light.center[0] - 12.0f, light.center[1], light.center[2] - 20.0f}, light.range});
+        far_right.push_back({{light.center[0] + 12.0f, light.center[1] + 4.0f, light.center[2] - 25.0f}, light.range});
+    }
+    const std::vector<ManylightsSphere> few(near_left.begin(), near_left.begin() + 40);
+    const std::vector<const std::vector<ManylightsSphere>*> frames = {&near_left, &far_right, &few,
+                                                                      &far_right, &far_right, &near_left};
+    for (const std::uint32_t structure : kStructures) {
+        const BuilderPtr builder = make_builder(settings_of(structure));
+        for (const auto* spheres : frames) {
+            const BuilderPtr fresh = make_builder(settings_of(structure));
+            const Frame expected = build_frame(fresh.get(), {make_view()}, *spheres);
+            ASSERT_GT(expected.references.size(), spheres->size() / 2);
+            ASSERT_EQ(build_frame(builder.get(), {make_view()}, *spheres).bytes(), expected.bytes()) << structure;
+        }
+    }
+}
+
 // Each of eight views gives what it gives alone, at its place in the shared buffers.
 TEST(Views, EightAtOnceGiveWhatEachGivesAlone) {
     const auto spheres = make_lights(1500, 12, 40.0, 0.5, 4.0);

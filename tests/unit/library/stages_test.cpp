@@ -18,14 +18,14 @@ namespace {
 
 using namespace detail;
 
-// A tile's records, and the scratch that its cells are made in. Runs of awkward lengths.
+// A tile's records, and what becomes of them. Runs of awkward lengths.
 class TileOfCells {
   public:
     explicit TileOfCells(const std::vector<Interval>& depths) : count_(static_cast<std::uint32_t>(depths.size())) {
         const std::size_t room = count_ + kLanePadding;
         records_.resize(room);
-        words_.resize(4 * room);
-        floats_.resize(6 * room);
+        words_.resize(3 * room);
+        floats_.resize(5 * room);
         for (std::uint32_t i = 0; i < count_; ++i)
             records_[i] = {i, std::bit_cast<std::uint32_t>(static_cast<float>(depths[i].low)),
                            std::bit_cast<std::uint32_t>(static_cast<float>(depths[i].high))};
@@ -35,13 +35,20 @@ class TileOfCells {
             return DepthArrays{words_.data() + i * room, floats_.data() + 2 * i * room,
                                floats_.data() + (2 * i + 1) * room};
         };
-        scratch = {runs_.data(), arrays(0), arrays(1), arrays(2), words_.data() + 3 * room, nullptr};
+        sorted = arrays(0);
+        cell = arrays(1);
+        sort_records({runs_.data(), static_cast<std::uint32_t>(runs_.size())}, count_,
+                     {floats_.data() + 4 * room, words_.data() + 2 * room}, sorted);
     }
 
     std::uint32_t count() const { return count_; }
-    std::uint32_t run_count() const { return static_cast<std::uint32_t>(runs_.size()); }
+    SliceSums measure(const SliceLanes& slices) const {
+        SliceSums sums;
+        measure_slices(slices, sorted, count_, sums);
+        return sums;
+    }
 
-    CellScratch scratch{};
+    DepthArrays sorted{}, cell{};
 
   private:
     std::uint32_t count_;
@@ -68,8 +75,7 @@ constexpr std::uint32_t kCounts[] = {1u, 2u, 15u, 16u, 17u, 100u, 1000u, 5000u};
 TEST(SortRecords, KeepsEachLightOnceInTheOrderOfDepths) {
     for (const std::uint32_t count : kCounts) {
         const auto depths = random_depths(count, 200.0);
-        TileOfCells tile(depths);
-        sort_records(tile.run_count(), count, tile.scratch);
+        const TileOfCells tile(depths);
         std::vector<bool> seen(count, false);
         double least = 1e300;
         double most = -1e300;
@@ -80,11 +86,11 @@ TEST(SortRecords, KeepsEachLightOnceInTheOrderOfDepths) {
         const double bin = (most - least) / std::min(std::max(count, 16u) - 1.0, 4095.0);
         double last = -1e300;
         for (std::uint32_t i = 0; i < count; ++i) {
-            const std::uint32_t light = tile.scratch.sorted.light[i];
+            const std::uint32_t light = tile.sorted.light[i];
             ASSERT_FALSE(seen[light]);
             seen[light] = true;
-            ASSERT_EQ(static_cast<double>(tile.scratch.sorted.low[i]), depths[light].low);
-            ASSERT_EQ(static_cast<double>(tile.scratch.sorted.high[i]), depths[light].high);
+            ASSERT_EQ(static_cast<double>(tile.sorted.low[i]), depths[light].low);
+            ASSERT_EQ(static_cast<double>(tile.sorted.high[i]), depths[light].high);
             ASSERT_GE(depths[light].low + depths[light].high, last - bin * 1.001);
             last = std::max(last, depths[light].low + depths[light].high);
         }
@@ -97,9 +103,8 @@ TEST(SortRecords, TakesEveryDepth) {
     constexpr double kMost = std::numeric_limits<float>::max();
     TileOfCells tile(
         {{-kInfinity, kInfinity}, {1, 2}, {-kMost, kMost}, {kMost, kInfinity}, {-kInfinity, -kMost}, {3, 3}});
-    sort_records(tile.run_count(), tile.count(), tile.scratch);
     std::uint32_t seen = 0;
-    for (std::uint32_t i = 0; i < tile.count(); ++i) seen |= 1u << tile.scratch.sorted.light[i];
+    for (std::uint32_t i = 0; i < tile.count(); ++i) seen |= 1u << tile.sorted.light[i];
     EXPECT_EQ(seen, 63u);
 }
 
@@ -115,22 +120,17 @@ TEST(Slices, TakeTheLightsBetweenTheSlicesOfTheirEnds) {
             depths.insert(depths.end(), {{edge, edge}, {before, before}, {before, edge}});
         }
         TileOfCells tile(depths);
-        SliceSums sums;
-        sum_slices(lanes, tile.scratch.runs, tile.run_count(), sums);
-        sort_records(tile.run_count(), tile.count(), tile.scratch);
-        SliceRanges ranges;
-        find_ranges(lanes, tile.scratch.sorted, tile.count(), ranges);
+        const SliceSums sums = tile.measure(lanes);
         for (std::uint32_t s = 0; s < slice_count; ++s) {
             std::vector<std::uint32_t> expected;
             for (std::uint32_t i = 0; i < tile.count(); ++i) {
-                const DepthArrays& sorted = tile.scratch.sorted;
+                const DepthArrays& sorted = tile.sorted;
                 if (slice_of(slices, sorted.low[i]) <= s && s <= slice_of(slices, sorted.high[i]))
                     expected.push_back(sorted.light[i]);
             }
-            const std::uint32_t picked =
-                pick_slice(lanes, s, tile.scratch.sorted, ranges.first[s], ranges.end[s], tile.scratch.cell);
+            const std::uint32_t picked = pick_slice(lanes, s, tile.sorted, sums.first[s], sums.end[s], tile.cell);
             ASSERT_EQ(sums.counts[s], expected.size()) << slice_count << " " << s;
-            ASSERT_EQ(std::vector(tile.scratch.cell.light, tile.scratch.cell.light + picked), expected);
+            ASSERT_EQ(std::vector(tile.cell.light, tile.cell.light + picked), expected);
         }
     }
 }
@@ -239,8 +239,7 @@ TEST(Decide, ComparesTheClippedMeanWithHalfTheCell) {
     ASSERT_EQ(lanes.far_depth[0], 30.0f);
     const auto prefers = [&](const std::vector<Interval>& depths) {
         TileOfCells tile(depths);
-        SliceSums sums;
-        sum_slices(lanes, tile.scratch.runs, tile.run_count(), sums);
+        const SliceSums sums = tile.measure(lanes);
         return prefers_tree(sums.counts[0], sums.depths[0], 10.0f, 30.0f);
     };
     EXPECT_TRUE(prefers({{15.25, 24.75}, {15.25, 24.75}}));

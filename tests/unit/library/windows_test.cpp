@@ -57,93 +57,109 @@ std::vector<TileRecord> random_records(Random& random, std::uint32_t count, std:
     return records;
 }
 
-// A tile cut and put into order as plan and write do it.
-struct CutTile {
+// A tile as plan makes it.
+struct MadeTile {
     WindowTile tile;
-    std::uint32_t small_count;
     std::vector<WindowReference> ordered;
-    TileWindows windows;
+    std::vector<MlCell> entries;
+
+    MlWindow window(std::uint32_t slice) const {
+        if (tile.form.flat_count != 0) return {0, tile.count, tile.count, tile.count};
+        const MlUint at = ml_entry_cell(tile.form, slice);
+        return ml_window_from_cells(tile.form, slice, entries[at],
+                                    entries[std::min<std::size_t>(at + 1, entries.size() - 1)]);
+    }
 };
 
 // In runs of awkward lengths.
-CutTile cut_tile(std::vector<TileRecord> records) {
+MadeTile make_tile(std::vector<TileRecord> records) {
     const auto count = static_cast<std::uint32_t>(records.size());
     const std::size_t room = count + kLanePadding;
     records.resize(room);
-    std::vector<std::uint32_t> words(4 * room);
+    std::vector<std::uint32_t> words(2 * room);
+    std::vector<WindowReference> references(2 * room);
+    std::vector<MlCell> entries(kMostEntryWords / 2, {77, 77});
     std::vector<RecordRun> runs;
     for (std::uint32_t at = 0; at < count; at += runs.back().count)
         runs.push_back({records.data() + at, std::min(1 + at % 21, count - at)});
-    CutTile cut{{}, 0, std::vector<WindowReference>(count), {}};
-    const TileScratch scratch = {
-        runs.data(),       words.data(), words.data() + room, words.data() + 2 * room, words.data() + 3 * room,
-        cut.ordered.data()};
-    const auto run_count = static_cast<std::uint32_t>(runs.size());
-    cut.tile = measure_tile(runs.data(), run_count, count, scratch.extents);
-    describe_records(cut.tile, run_count, scratch);
-    order_records(cut.tile, scratch, cut.windows);
-    for (std::uint32_t i = 0; i < count; ++i) cut.small_count += records[i].extent() < 1u << cut.tile.small_bits;
-    return cut;
+    const TileRuns all = {runs.data(), static_cast<std::uint32_t>(runs.size())};
+    const TileScratch scratch = {nullptr,
+                                 words.data(),
+                                 words.data() + room,
+                                 references.data(),
+                                 references.data() + room,
+                                 reinterpret_cast<MlUint*>(entries.data())};
+    MadeTile made;
+    made.tile = measure_tile(all, count, scratch);
+    const WindowReference* const ordered = order_tile(made.tile, all, scratch);
+    made.ordered.assign(ordered, ordered + count);
+    made.entries.assign(entries.begin(), entries.begin() + ml_entry_cell_count(made.tile.form));
+    const bool has_odd_word = made.tile.form.two_classes + made.tile.form.wide + made.tile.form.last_slice % 2 == 0;
+    if (has_odd_word && !made.entries.empty()) {
+        EXPECT_EQ(made.entries.back().count, 0u) << "behind the last entry";
+    }
+    return made;
 }
 
 // What the layout demands of a form, whatever the records are.
-void expect_sound(const CutTile& cut, const std::vector<TileRecord>& records) {
-    const WindowTile& tile = cut.tile;
+void expect_sound(const MadeTile& made, const std::vector<TileRecord>& records) {
+    const WindowTile& tile = made.tile;
     const auto count = static_cast<std::uint32_t>(records.size());
     EXPECT_NE(ml_pack_tile_form(tile.form), 0u);
     EXPECT_LT(tile.form.last_slice, ML_TILE_SLICES_MAX);
     EXPECT_EQ(tile.form.wide, count > 65535 ? 1u : 0u);
-    EXPECT_EQ(tile.form.two_classes, cut.small_count < count ? 1u : 0u);
+    EXPECT_EQ(tile.form.two_classes, tile.small_count < count ? 1u : 0u);
     EXPECT_TRUE(tile.form.flat_count == 0 || tile.form.flat_count == count);
     std::vector<bool> seen(count, false);
     for (std::uint32_t i = 0; i < count; ++i) {
-        ASSERT_FALSE(seen[cut.ordered[i].light]);
-        seen[cut.ordered[i].light] = true;
-        const TileRecord& record = records[cut.ordered[i].light];
+        ASSERT_FALSE(seen[made.ordered[i].light]);
+        seen[made.ordered[i].light] = true;
+        const TileRecord& record = records[made.ordered[i].light];
         ASSERT_GE(record.near_code(), tile.base_code);
         ASSERT_LE(slice_of_code(tile, record.far_code()), tile.form.last_slice);
-        const bool has_one_before = i != 0 && i != cut.small_count;
-        ASSERT_TRUE(!has_one_before || slice_of_code(tile, records[cut.ordered[i - 1].light].near_code()) <=
+        const bool has_one_before = i != 0 && i != tile.small_count;
+        ASSERT_TRUE(!has_one_before || slice_of_code(tile, records[made.ordered[i - 1].light].near_code()) <=
                                            slice_of_code(tile, record.near_code()));
-        const bool small = i < cut.small_count;
+        const bool small = i < tile.small_count;
         ASSERT_EQ(small, record.extent() < 1u << tile.small_bits);
         for (std::uint32_t s = slice_of_code(tile, record.near_code()); s <= slice_of_code(tile, record.far_code());
              ++s) {
-            const std::uint32_t key = small ? s : kClassSlices + s;
-            ASSERT_TRUE(cut.windows.first[key] <= i && i < cut.windows.end[key]);
+            const MlWindow window = made.window(s);
+            ASSERT_TRUE(small ? window.small_first <= i && i < window.small_last
+                              : window.large_first <= i && i < window.large_last);
         }
         const std::uint32_t shift = small ? tile.form.small_shift : tile.form.large_shift;
-        ASSERT_EQ(cut.ordered[i].bounds & 255u, (record.near_code() >> shift) & 255u);
-        ASSERT_EQ((cut.ordered[i].bounds >> 8) & 255u, (record.far_code() >> shift) - (record.near_code() >> shift));
+        ASSERT_EQ(made.ordered[i].bounds & 255u, (record.near_code() >> shift) & 255u);
+        ASSERT_EQ((made.ordered[i].bounds >> 8) & 255u, (record.far_code() >> shift) - (record.near_code() >> shift));
         // From any depth of the record's window, no unit of the 256 is met twice.
         const std::uint32_t slice = 1u << tile.form.slice_shift;
         ASSERT_LE((record.extent() >> shift) + 1 + ((2 * slice) >> shift), 255u);
     }
 }
 
-TEST(CutTile, KeepsEveryRecordOnceInOrderAndInBounds) {
+TEST(MakeTile, KeepsEveryRecordOnceInOrderAndInBounds) {
     Random random(5);
     int two_classes = 0;
     for (const std::uint32_t count : {1u, 2u, 8u, 9u, 17u, 127u, 128u, 1000u, 65535u, 65536u}) {
         for (const std::uint32_t span : {1u, 2u, 300u, 1u << 18, 1u << 24}) {
             for (const int high_bits : {0, 4, 12, 24}) {
                 const auto records = random_records(random, count, span, 0, high_bits);
-                const CutTile cut = cut_tile(records);
-                expect_sound(cut, records);
+                const MadeTile made = make_tile(records);
+                expect_sound(made, records);
                 ASSERT_FALSE(HasFailure()) << count << " records, span " << span << ", bits " << high_bits;
-                two_classes += cut.tile.form.two_classes != 0 ? 1 : 0;
+                two_classes += made.tile.form.two_classes != 0 ? 1 : 0;
             }
         }
     }
     EXPECT_GT(two_classes, 30);
 }
 
-TEST(CutTile, SplitsClassesAndSlicesWhereThatSavesChecks) {
+TEST(MakeTile, SplitsClassesAndSlicesWhereThatSavesChecks) {
     Random random(6);
     const auto cut = [&](std::uint32_t count, std::uint32_t large_count) {
         auto records = random_records(random, count, 1u << 16, 6, 6);
         for (std::uint32_t i = 0; i < large_count; ++i) records[i].far_bits = records[i].near_bits + (1u << 15);
-        return cut_tile(records);
+        return make_tile(records);
     };
     const WindowTile flat = cut(8, 1).tile;
     EXPECT_EQ(flat.form.flat_count, 8u);
@@ -155,9 +171,9 @@ TEST(CutTile, SplitsClassesAndSlicesWhereThatSavesChecks) {
     const WindowTile few = cut(20, 0).tile;
     EXPECT_GE(few.form.last_slice + 1, 15u) << "half of 3/2 of the references at least";
     EXPECT_LE(few.form.last_slice + 1, 30u);
-    const CutTile split = cut(200, 20);
+    const MadeTile split = cut(200, 20);
     EXPECT_EQ(split.tile.form.two_classes, 1u);
-    EXPECT_EQ(split.small_count, 180u);
+    EXPECT_EQ(split.tile.small_count, 180u);
     EXPECT_LT(split.tile.form.small_shift, split.tile.form.large_shift);
     EXPECT_EQ(cut(200, 200).tile.form.two_classes, 0u);
     const WindowTile many = cut(5000, 0).tile;
@@ -171,11 +187,11 @@ struct FoundRecord {
 
 std::vector<FoundRecord> records_of(ManylightsBuilder& builder) {
     std::vector<FoundRecord> found;
-    const TileScratch scratch = tile_scratch(builder, 0);
+    std::vector<RecordRun> room(run_room(builder.records, builder.windows.largest_tile));
     for (std::uint32_t t = 0; t < builder.windows.tiles.size(); ++t) {
-        const std::uint32_t runs = list_runs(builder.records, t, scratch.runs);
-        for (std::uint32_t k = 0; k < runs; ++k)
-            for (std::uint32_t i = 0; i < scratch.runs[k].count; ++i) found.push_back({scratch.runs[k].records[i], t});
+        const TileRuns runs = list_runs(builder.records, t, room.data());
+        for (std::uint32_t k = 0; k < runs.count; ++k)
+            for (std::uint32_t i = 0; i < room[k].count; ++i) found.push_back({room[k].records[i], t});
     }
     return found;
 }
