@@ -62,18 +62,16 @@ HWY_INLINE PlanesInUse planes_in_use(std::uint32_t step, std::uint32_t count, bo
     return {step > 0 || is_clipped, step + 1 < count || is_clipped};
 }
 
-// first: the number of the lights' first tile, in the image. What is not in use is left as it is.
+// first: the number of the lights' first tile, in the image. What is not in use means nothing.
 HWY_INLINE void load_planes(const AxisPlanes& planes, Words first, std::uint32_t step, PlanesInUse use,
                             TilePlanes& loaded) {
     const Ints tile = hn::BitCast(kI, first + hn::Set(kW, step));
-    if (use.before) {
-        loaded.before_offset = gather(planes.before_offset, tile);
-        loaded.before_depth = gather(planes.before_depth, tile);
-    }
-    if (use.behind) {
-        loaded.behind_offset = gather(planes.behind_offset, tile);
-        loaded.behind_depth = gather(planes.behind_depth, tile);
-    }
+    const auto load = [&](bool is_used, const float* from)
+                          HWY_ATTR { return is_used ? gather(from, tile) : hn::Zero(kF); };
+    loaded.before_offset = load(use.before, planes.before_offset);
+    loaded.before_depth = load(use.before, planes.before_depth);
+    loaded.behind_offset = load(use.behind, planes.behind_offset);
+    loaded.behind_depth = load(use.behind, planes.behind_depth);
 }
 
 HWY_INLINE Cuts cut_tile(const Spheres& spheres, const TilePlanes& planes, PlanesInUse use) {
