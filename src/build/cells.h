@@ -78,7 +78,7 @@ struct GridCell {
 
 struct Cells {
     Array<GridTile> tiles;
-    Array<GridCell> cells;       // per tile: its slices
+    Array<GridCell> cells;       // per tile: its slices; not set where it has no record
     Array<std::uint8_t> is_tree; // likewise
     Array<std::uint32_t> sorted_lights;
     Array<float> sorted_low, sorted_high;

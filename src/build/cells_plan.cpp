@@ -115,6 +115,7 @@ void measure_task(ManylightsBuilder& builder, std::uint32_t task) {
         const std::uint64_t last = std::min(end, grid.tile_offset + grid.tile_count);
         for (std::uint64_t t = first; t < last; ++t) {
             const GridTile& tile = cells.tiles[t];
+            if (tile.record_count == 0) continue;
             sort_records(list_runs(records, t, scratch.runs), tile.record_count, scratch.sort, cells.sorted(tile));
             measure_cells(builder, cells.slices[v], t);
         }

@@ -8,23 +8,25 @@ namespace manylights::detail {
 
 namespace {
 
+MlCell describe_cell(const Cells& cells, const Grid& grid, std::uint64_t t, std::uint32_t slice, bool lists) {
+    const GridTile& tile = cells.tiles[t];
+    const std::uint32_t first = lists ? tile.first_reference : tile.first_node;
+    if (tile.record_count == 0) return {first, 0};
+    const GridCell* const cell = &cells.cells[t * grid.slice_count + slice];
+    const std::uint64_t behind = slice + 1 < grid.slice_count ? cell[1].first
+                                 : lists                      ? tile.reference_count
+                                                              : tile.node_count;
+    return {first + cell->first, static_cast<std::uint32_t>(behind) - cell->first};
+}
+
 // Of the tiles [begin, end), all of one view: ascending.
 void write_cells(const ManylightsBuilder& builder, const Grid& grid, std::uint64_t begin, std::uint64_t end,
                  MlCell* out) {
-    const Cells& cells = builder.cells;
     const bool lists = builder.settings.structure == MANYLIGHTS_STRUCTURE_LISTS;
-    for (std::uint32_t s = 0; s < grid.slice_count; ++s) {
-        for (std::uint64_t t = begin; t < end; ++t) {
-            const GridCell* const cell = &cells.cells[t * grid.slice_count + s];
-            const GridTile& tile = cells.tiles[t];
-            const std::uint64_t behind = s + 1 < grid.slice_count ? cell[1].first
-                                         : lists                  ? tile.reference_count
-                                                                  : tile.node_count;
-            const std::uint32_t first = lists ? tile.first_reference : tile.first_node;
-            out[grid.cell_offset() + s * grid.tile_count + (t - grid.tile_offset)] = {
-                first + cell->first, static_cast<std::uint32_t>(behind) - cell->first};
-        }
-    }
+    for (std::uint32_t s = 0; s < grid.slice_count; ++s)
+        for (std::uint64_t t = begin; t < end; ++t)
+            out[grid.cell_offset() + s * grid.tile_count + (t - grid.tile_offset)] =
+                describe_cell(builder.cells, grid, t, s, lists);
 }
 
 struct Destination {
