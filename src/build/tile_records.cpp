@@ -215,7 +215,10 @@ Fit collect_records(ManylightsBuilder& builder, const ManylightsLights& lights, 
     if (!prepare_job(job)) return Fit::kOutOfMemory;
     const std::uint32_t task_count = light_task_count(builder, job.blocks, estimate);
     if (!keep_last_counts(builder.records, task_count)) return Fit::kOutOfMemory;
+    // The room that is there is used, too: where lights jump, homes are left half empty.
     std::uint64_t capacity = expected_chunks(builder.records, task_count, estimate);
+    if (builder.records.tasks.size() == task_count)
+        capacity = std::max<std::uint64_t>(capacity, builder.records.next.size() / task_count);
     for (;;) {
         if (!make_room(builder, task_count, capacity)) return Fit::kOutOfMemory;
         job.capacity = static_cast<std::uint32_t>(capacity);
