@@ -74,6 +74,7 @@ CellKind choose_kind(const Settings& settings, const SliceLanes& slices, std::ui
 void measure_one_slice(std::uint32_t count, SliceSums& sums) {
     sums.counts[0] = sums.end[0] = count;
     sums.first[0] = 0;
+    sums.depths[0] = 0.0f; // nothing is decided by it
 }
 
 void measure_cells(ManylightsBuilder& builder, const SliceLanes& slices, std::uint64_t t) {

@@ -8,11 +8,6 @@ namespace manylights::detail {
 
 namespace {
 
-std::uint32_t task_record_count(const RecordPool& pool, std::uint64_t tile) {
-    if (pool.chunks[tile] == 0) return 0;
-    return (pool.chunks[tile] - 1) * kChunkRecords + (pool.cursors[tile] - 1) % kChunkRecords + 1;
-}
-
 constexpr std::size_t kBufferRoom = kBufferedRecords + 2 * kLanePadding;
 constexpr std::size_t kTaskWords = 6 * std::size_t{kBlockRoom} + kSpanGroups + 4 * kBufferRoom;
 constexpr std::uint64_t kMostChunks = UINT32_MAX / kChunkRecords;
@@ -65,7 +60,7 @@ RecordBuffer buffer_of(ManylightsBuilder& builder, std::uint32_t task) {
 // Homes for all tiles of a task, as far as half of the chunks suffice; what is left is for those that need more.
 std::uint32_t assign_homes(TileRecords& records, std::uint32_t task, std::uint32_t capacity) {
     std::uint32_t* const homes = records.homes.data() + (records.tile_count + 1) * task;
-    const std::uint32_t* const counts = records.last_counts.data() + records.tile_count * task;
+    const std::uint32_t* const counts = records.counts.data() + records.tile_count * task;
     std::uint64_t chunk = 1;
     for (std::uint64_t t = 0; t < records.tile_count; ++t) {
         homes[t] = static_cast<std::uint32_t>(chunk);
@@ -142,18 +137,23 @@ std::uint64_t expected_chunks(const TileRecords& records, std::uint32_t task_cou
 }
 
 // Of other tiles, or of other tasks, nothing is known.
-bool keep_last_counts(TileRecords& records, std::uint32_t task_count) {
+bool keep_counts(TileRecords& records, std::uint32_t task_count) {
     const std::size_t size = records.tile_count * task_count;
-    if (records.last_counts.size() == size) return true;
-    if (!records.last_counts.resize(size)) return false;
-    records.last_counts.fill_zero();
+    if (records.counts.size() == size) return true;
+    if (!records.counts.resize(size)) return false;
+    records.counts.fill_zero();
     return true;
 }
 
-void note_counts(TileRecords& records) {
-    std::uint32_t* out = records.last_counts.data();
-    for (std::size_t task = 0; task < records.tasks.size(); ++task)
-        for (std::uint64_t t = 0; t < records.tile_count; ++t) *out++ = task_record_count(records.tasks[task].pool, t);
+void count_records(TileRecords& records) {
+    std::uint32_t* out = records.counts.data();
+    for (std::size_t task = 0; task < records.tasks.size(); ++task) {
+        const RecordPool& pool = records.tasks[task].pool;
+        for (std::uint64_t t = 0; t < records.tile_count; ++t)
+            *out++ = pool.chunks[t] == 0
+                         ? 0
+                         : (pool.chunks[t] - 1) * kChunkRecords + (pool.cursors[t] - 1) % kChunkRecords + 1;
+    }
 }
 
 // What spans more than this, compared with what may be, does not fit when it is narrowed either.
@@ -199,7 +199,7 @@ bool list_results(ManylightsBuilder& builder) {
 
 void TileRecords::use(const Allocator& allocator) {
     for (Array<float>* array : {&sample_floats, &planes, &task_floats}) array->use(allocator);
-    for (Array<std::uint32_t>* array : {&sample_words, &next, &chains, &homes, &last_counts, &task_words})
+    for (Array<std::uint32_t>* array : {&sample_words, &next, &chains, &homes, &counts, &task_words})
         array->use(allocator);
     sample_spheres.use(allocator);
     tasks.use(allocator);
@@ -214,7 +214,7 @@ Fit collect_records(ManylightsBuilder& builder, const ManylightsLights& lights, 
     CollectJob job{builder, lights, block_count_for(lights.count), 0, {}, {}, {}, {}};
     if (!prepare_job(job)) return Fit::kOutOfMemory;
     const std::uint32_t task_count = light_task_count(builder, job.blocks, estimate);
-    if (!keep_last_counts(builder.records, task_count)) return Fit::kOutOfMemory;
+    if (!keep_counts(builder.records, task_count)) return Fit::kOutOfMemory;
     // The room that is there is used, too: where lights jump, homes are left half empty.
     std::uint64_t capacity = expected_chunks(builder.records, task_count, estimate);
     if (builder.records.tasks.size() == task_count)
@@ -227,14 +227,14 @@ Fit collect_records(ManylightsBuilder& builder, const ManylightsLights& lights, 
         if (most_used <= capacity) break;
         capacity = std::min(most_used + most_used / 8, kMostChunks);
     }
-    note_counts(builder.records);
+    count_records(builder.records);
     return list_results(builder) ? Fit::kFits : Fit::kOutOfMemory;
 }
 
 std::uint32_t tile_record_count(const TileRecords& records, std::uint64_t tile) {
     std::uint32_t count = 0;
     for (std::size_t task = 0; task < records.tasks.size(); ++task)
-        count += task_record_count(records.tasks[task].pool, tile);
+        count += records.counts[records.tile_count * task + tile];
     return count;
 }
 

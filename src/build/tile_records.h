@@ -16,8 +16,6 @@
 
 #include <manylights/format.h>
 
-#include <hwy/cache_control.h>
-
 #include <cstdint>
 
 namespace manylights::detail {
@@ -119,14 +117,6 @@ struct TileRuns {
     std::uint32_t count;
 };
 
-// The runs of a tile lie anywhere. Whoever reads them asks for some ahead, lest their lines be waited for in turn.
-constexpr std::uint32_t kRunsAhead = 6;
-inline void prefetch_ahead(const TileRuns& runs, std::uint32_t k) {
-    if (k + kRunsAhead >= runs.count) return;
-    const RecordRun& run = runs.runs[k + kRunsAhead];
-    for (std::uint32_t i = 0; i < run.count; i += 64 / sizeof(TileRecord)) hwy::Prefetch(run.records + i);
-}
-
 // What one task needs.
 struct RecordTask {
     RecordPool pool;
@@ -152,7 +142,7 @@ struct TileRecords {
     Array<std::uint32_t> next;         // per task, see RecordPool
     Array<std::uint32_t> chains;       // per task and tile: cursors, firsts, chunks
     Array<std::uint32_t> homes;        // likewise, and one behind
-    Array<std::uint32_t> last_counts;  // likewise: the records that there were the last time; or none are known
+    Array<std::uint32_t> counts;       // per task and tile: records; while they are made, those of the last time, or 0
     Array<float> task_floats;          // per task: a block, and a buffer's rows
     Array<std::uint32_t> task_words;   // per task: a block, its spans, and a buffer
     std::uint64_t tile_count = 0;      // of all views

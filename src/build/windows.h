@@ -67,7 +67,7 @@ struct Windows {
 float choose_depth_scale(const std::uint32_t (&exponents)[256]);
 
 constexpr std::uint32_t kFlatReferences = 8; // up to so many, a table costs more than it saves
-constexpr std::uint32_t kExtentLimits = 27;
+constexpr std::uint32_t kExtentLimits = 27;  // of 0 to 25 bits, and one that is counted with the last but one
 
 // The extents of a tile's depth ranges. Of up to kFlatReferences only the largest matters, and the others are left out.
 struct Extents {

@@ -53,7 +53,6 @@ HWY_INLINE void find_extents(const TileRuns& runs, std::uint32_t* values, Extent
     std::uint32_t* out = values;
     for (std::uint32_t k = 0; k < runs.count; ++k) {
         const RecordRun run = runs.runs[k];
-        prefetch_ahead(runs, k);
         for (std::uint32_t i = 0; i < run.count; i += lane_count()) {
             const RecordLanes r = load_records(run.records + i);
             const auto present = hn::FirstN(kW, run.count - i);
@@ -118,7 +117,6 @@ HWY_INLINE void describe(const WindowTile& tile, const TileRuns& runs, const Til
     std::uint32_t* described = reinterpret_cast<std::uint32_t*>(scratch.described);
     for (std::uint32_t k = 0; k < runs.count; ++k) {
         const RecordRun run = runs.runs[k];
-        prefetch_ahead(runs, k);
         for (std::uint32_t i = 0; i < run.count; i += lane_count()) {
             const RecordLanes r = load_records(run.records + i);
             const auto small = r.far_code - r.near_code < limit;
