@@ -1,6 +1,7 @@
 // Where the library's build spends its time, on one thread: milliseconds and cycles of each stage of docs/building.md.
-// A block of lights goes through cull, span and record at once, so these are told apart by doing less: culling alone,
-// culling and spanning, all three. Measure, with placing, is what plan takes beside them.
+// A block of lights goes through some of them at once, so these are told apart by doing less: culling alone, culling
+// and spanning, all three. Measure, with placing, is what plan takes beside them. For structures with depth slices,
+// span is boxes and their order, and record is to deal them to cells.
 
 #include "bench/workload.h"
 #include "src/build/record_stages.h"
@@ -97,6 +98,20 @@ class BlockWork {
     std::uint32_t ends_[detail::kSpanGroups];
 };
 
+// Milliseconds from the beginning.
+struct LightStages {
+    double spanned, recorded;
+};
+LightStages run_light_stages(ManylightsBuilder& builder, const ManylightsLights& lights, BlockWork& blocks) {
+    if (!detail::has_windows(builder)) {
+        const double ordered = milliseconds_of([&] { require(detail::order_boxes(builder, lights)); });
+        return {ordered, ordered + milliseconds_of([&] { require(detail::deal_lights(builder)); })};
+    }
+    return {milliseconds_of([&] { blocks.run(builder, lights, true); }), milliseconds_of([&] {
+                require(detail::collect_records(builder, lights, UINT32_MAX, true) == detail::Fit::kFits);
+            })};
+}
+
 struct StageTimes {
     double sample = 0.0, cull = 0.0, span = 0.0, record = 0.0, measure = 0.0, write = 0.0;
 };
@@ -137,14 +152,12 @@ void library_build(benchmark::State& state, Frame (*make)(std::uint32_t), Manyli
         sums.write += milliseconds_of([&] { require(manylights_write(builder, &buffers, nullptr) == MANYLIGHTS_OK); });
         const double sample = milliseconds_of([&] { require(detail::take_sample(*builder, lights)); });
         const double cull = milliseconds_of([&] { blocks.run(*builder, lights, false); });
-        const double span = milliseconds_of([&] { blocks.run(*builder, lights, true); }) - cull;
-        const double all = milliseconds_of(
-            [&] { require(detail::collect_records(*builder, lights, UINT32_MAX, true) == detail::Fit::kFits); });
+        const LightStages stages = run_light_stages(*builder, lights, blocks);
         sums.sample += sample;
         sums.cull += cull;
-        sums.span += span;
-        sums.record += all - cull - span;
-        sums.measure += plan - sample - all;
+        sums.span += stages.spanned - cull;
+        sums.record += stages.recorded - stages.spanned;
+        sums.measure += plan - sample - stages.recorded;
     }
     ManylightsStats stats{};
     manylights_stats(builder, &stats);

@@ -45,8 +45,9 @@ void take_cell_stats(const ManylightsBuilder& builder, ManylightsStats& stats) {
         return;
     }
     stats.cells = builder.counts.cells;
-    stats.list_cells = builder.cells.list_cells;
-    stats.tree_cells = builder.cells.tree_cells;
+    const CellBlock& sums = builder.cells.blocks[builder.cells.blocks.size() - 1];
+    stats.list_cells = sums.list_cells;
+    stats.tree_cells = sums.tree_cells;
     stats.empty_cells = stats.cells - stats.list_cells - stats.tree_cells;
 }
 
@@ -84,7 +85,7 @@ Outcome arrange(ManylightsBuilder& builder, const ManylightsLights& lights) {
         return {MANYLIGHTS_TOO_LARGE, "lights.count",
                 "must give fewer than 2^32 references, nodes and cells with one tile per view", 0};
     if (fit == Fit::kOutOfMemory) return out_of_memory("cells");
-    builder.task_count = has_windows(builder) ? builder.windows.tile_tasks : builder.cells.tile_tasks;
+    builder.task_count = has_windows(builder) ? builder.windows.tile_tasks : builder.cells.write_tasks;
     take_stats(builder, fit == Fit::kOverBudget);
     return {};
 }

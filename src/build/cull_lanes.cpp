@@ -232,7 +232,7 @@ Ignored cull_block(const ViewCull& cull, const LightSpan& lights, LightBlock& re
         const Mask special = hn::AndNot(simple, candidates);
         if (!hn::AllFalse(kF, special))
             find_special(cull, lights, i, special, v.is_ordinary, v, pixels_x, pixels_y, kept);
-        const Words index = hn::Iota(kW, static_cast<std::uint32_t>(lights.first + i));
+        const Words index = hn::Set(kW, static_cast<std::uint32_t>(lights.first + i)) + hn::Iota(kW, 0);
         append(block, v, index, pixels_x, pixels_y, kept);
     }
     result.count = block.count;

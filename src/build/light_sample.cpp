@@ -38,13 +38,45 @@ std::uint32_t copy_sample(const ManylightsLights& lights, std::uint32_t step, Ma
     return count;
 }
 
+// Of positive floats, by their exponents; all others are in the first bin.
+struct Exponents {
+    std::uint32_t counts[256] = {};
+    void add(float value) { ++counts[value > 0.0f ? std::bit_cast<std::uint32_t>(value) >> 23 : 0]; }
+};
+
+// The last bin with which no more than one of so many are left out.
+int last_bin(const std::uint32_t (&exponents)[256], std::uint64_t one_of) {
+    std::uint64_t count = 0;
+    for (const std::uint32_t bin : exponents) count += bin;
+    std::uint64_t beyond = 0; // in the bins behind last
+    int last = 255;
+    while (last > 0 && beyond + exponents[last] <= count / one_of) beyond += exponents[last--];
+    return last;
+}
+
 float scale_of(const LightBlock& lights) {
-    std::uint32_t exponents[256] = {};
+    Exponents near_ends;
+    for (std::uint32_t i = 0; i < lights.count; ++i) near_ends.add(lights.depth[i] - lights.radius[i]);
+    return choose_depth_scale(near_ends.counts);
+}
+
+float power_of_two(int bin) { return std::bit_cast<float>(static_cast<std::uint32_t>(std::clamp(bin, 1, 254)) << 23); }
+
+// One of sixteen may begin nearer, one of 64 lie farther, and one of 64 be larger: see DepthCodes and DepthBands.
+void measure_depths(const LightBlock& lights, LightSample& sample) {
+    if (lights.count == 0) return;
+    Exponents depths, near_ends, radii;
     for (std::uint32_t i = 0; i < lights.count; ++i) {
-        const float near_end = lights.depth[i] - lights.radius[i];
-        ++exponents[near_end > 0.0f ? std::bit_cast<std::uint32_t>(near_end) >> 23 : 0];
+        depths.add(lights.depth[i]);
+        radii.add(lights.radius[i]);
+        near_ends.add(lights.depth[i] - lights.radius[i]);
     }
-    return choose_depth_scale(exponents);
+    int first = 0;
+    for (std::uint32_t before = 0; first < 255 && before <= lights.count / 16; ++first)
+        before += near_ends.counts[first];
+    sample.least_depth = power_of_two(first - 1);
+    sample.most_depth = power_of_two(last_bin(depths.counts, 64) + 2);
+    sample.large_radius = power_of_two(last_bin(radii.counts, 64) + 1);
 }
 
 std::uint32_t chosen_tile_px(ManylightsBuilder& builder) {
@@ -67,12 +99,7 @@ std::uint32_t chosen_tile_px(ManylightsBuilder& builder) {
 
 float choose_depth_scale(const std::uint32_t (&exponents)[256]) {
     constexpr int kLargestExponent = 126; // of a scale in this format
-    std::uint64_t count = 0;
-    for (const std::uint32_t bin : exponents) count += bin;
-    std::uint64_t beyond = 0; // in the bins behind last
-    int last = 255;
-    while (last > 0 && beyond + exponents[last] <= count / 1024) beyond += exponents[last--];
-    const int exponent = std::min(18 - (last - 126), kLargestExponent);
+    const int exponent = std::min(18 - (last_bin(exponents, 1024) - 126), kLargestExponent);
     return std::bit_cast<float>(static_cast<std::uint32_t>(exponent + 127) << 23);
 }
 
@@ -90,11 +117,14 @@ bool take_sample(ManylightsBuilder& builder, const ManylightsLights& lights) {
         cull_block(make_view_cull(builder.views[v].camera, lights.motion_margin), span, block);
         records.sample_words[(4 * std::size_t{v} + 3) * kBlockRoom] = block.count;
         records.samples[v] = {span.count != 0 ? std::uint64_t{block.count} * lights.count / span.count : 0,
-                              static_cast<double>(step)};
+                              static_cast<double>(step), 0.0f, 0.0f, 0.0f};
+        measure_depths(block, records.samples[v]);
         if (has_windows(builder)) builder.windows.views[v].depth_scale = scale_of(block);
     }
     return true;
 }
+
+LightBlock sample_lights(ManylightsBuilder& builder, std::uint32_t view) { return sample_block(builder.records, view); }
 
 std::uint64_t estimate_tiles(ManylightsBuilder& builder, std::uint32_t tile_px) {
     double sum = 0.0;

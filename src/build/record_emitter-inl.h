@@ -35,47 +35,18 @@ HWY_INLINE Words gather(const std::uint32_t* from, Ints positions) {
     return hn::BitCast(kW, hn::GatherIndex(kI, reinterpret_cast<const std::int32_t*>(from), positions));
 }
 
-HWY_INLINE void prefetch_chunk(const RecordPool& pool, std::uint32_t chunk) {
-    const TileRecord* const records = pool.records + std::size_t{chunk} * kChunkRecords;
-    for (std::uint32_t i = 0; i < kChunkRecords; i += 64 / sizeof(TileRecord)) hwy::Prefetch(records + i);
-}
-
-// Those without a home are begun in order: one that will be soon is on its way to the cache.
-constexpr std::uint32_t kChunksAhead = 8;
-
-// Once there are no more, chunk 0 takes all.
-HWY_INLINE std::uint32_t take_chunk(RecordPool& pool) {
-    const std::uint32_t chunk = pool.used < pool.capacity ? pool.used : 0;
-    ++pool.used;
-    prefetch_chunk(pool, chunk + kChunksAhead);
-    return chunk;
-}
-
-// Where the tile's next record goes: into a new chunk.
-HWY_NOINLINE std::uint32_t open_chunk(RecordPool& pool, std::uint32_t tile, std::uint32_t cursor) {
-    const std::uint32_t home_end = pool.homes[tile + 1];
-    const std::uint32_t last = (cursor - 1) / kChunkRecords;
-    std::uint32_t chunk = cursor == 0 ? pool.homes[tile] : last + 1;
-    if (chunk - pool.homes[tile] >= home_end - pool.homes[tile]) chunk = take_chunk(pool);
-    if (cursor == 0)
-        pool.firsts[tile] = chunk;
-    else
-        pool.next[last] = chunk;
-    ++pool.chunks[tile];
-    return chunk * kChunkRecords;
-}
-
 // The records of a tile keep their order. First all places, then all records: a place that is looked up between stores
 // to other places waits until it is known that none of these was to it.
 HWY_NOINLINE void flush(const RecordBuffer from, std::uint32_t count, RecordPool& pool) {
-    std::uint32_t* const cursors = pool.cursors;
-    TileRecord* const records = pool.records;
+    HomeCursor* const cursors = pool.cursors;
+    TileRecord* const records = pool.items;
     std::uint32_t* const places = from.tile;
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t tile = from.tile[i];
-        std::uint32_t at = cursors[tile];
-        if (at % kChunkRecords == 0) at = open_chunk(pool, tile, at);
-        cursors[tile] = at + 1;
+        HomeCursor& cursor = cursors[tile];
+        std::uint32_t at = cursor.next;
+        if (HWY_UNLIKELY(at == cursor.limit)) at = open_chunk(pool, tile, cursor);
+        cursor.next = at + 1;
         places[i] = at;
         hwy::Prefetch(reinterpret_cast<const char*>(records + at) + 64); // for the tile's next ones
     }
@@ -96,15 +67,6 @@ class Emitter {
         hn::StoreU(compact(near_bits), kW, buffer_.near_bits + count_);
         hn::StoreU(compact(far_bits), kW, buffer_.far_bits + count_);
         count_ += compact.count();
-        if (count_ >= kBufferedRecords) finish();
-    }
-    // The first ones of the lanes.
-    HWY_INLINE void add_first(Words tile, Words light, Words near_bits, Words far_bits, std::uint32_t kept) {
-        hn::StoreU(tile, kW, buffer_.tile + count_);
-        hn::StoreU(light, kW, buffer_.light + count_);
-        hn::StoreU(near_bits, kW, buffer_.near_bits + count_);
-        hn::StoreU(far_bits, kW, buffer_.far_bits + count_);
-        count_ += kept;
         if (count_ >= kBufferedRecords) finish();
     }
     HWY_INLINE std::uint64_t finish() {

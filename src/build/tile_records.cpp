@@ -2,7 +2,6 @@
 #include "src/build/record_stages.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace manylights::detail {
 
@@ -10,7 +9,7 @@ namespace {
 
 constexpr std::size_t kBufferRoom = kBufferedRecords + 2 * kLanePadding;
 constexpr std::size_t kTaskWords = 6 * std::size_t{kBlockRoom} + kSpanGroups + 4 * kBufferRoom;
-constexpr std::uint64_t kMostChunks = UINT32_MAX / kChunkRecords;
+constexpr std::uint64_t kMostChunks = UINT32_MAX / RecordPool::kChunk;
 
 std::size_t row_room(const ManylightsBuilder& builder) {
     std::uint32_t rows = 0;
@@ -57,34 +56,25 @@ RecordBuffer buffer_of(ManylightsBuilder& builder, std::uint32_t task) {
             rows,  rows + room,         rows + 2 * room,         rows + 3 * room};
 }
 
-// Homes for all tiles of a task, as far as half of the chunks suffice; what is left is for those that need more.
-std::uint32_t assign_homes(TileRecords& records, std::uint32_t task, std::uint32_t capacity) {
-    std::uint32_t* const homes = records.homes.data() + (records.tile_count + 1) * task;
-    const std::uint32_t* const counts = records.counts.data() + records.tile_count * task;
-    std::uint64_t chunk = 1;
-    for (std::uint64_t t = 0; t < records.tile_count; ++t) {
-        homes[t] = static_cast<std::uint32_t>(chunk);
-        const std::uint64_t expected = counts[t] + counts[t] / std::uint64_t{8};
-        const std::uint64_t end = chunk + (expected + kChunkRecords - 1) / kChunkRecords;
-        if (end < capacity - capacity / 16) chunk = end;
-    }
-    homes[records.tile_count] = static_cast<std::uint32_t>(chunk);
-    return homes[records.tile_count];
+// Room for so many chunks of records, some of which are homes.
+RecordPool empty_pool(TileRecords& records, std::uint32_t task, std::uint32_t capacity) {
+    RecordPool pool = {records.records.data() + std::size_t{capacity} * RecordPool::kChunk * task,
+                       records.cursors.data() + records.tile_count * task,
+                       records.homes.data() + (records.tile_count + 1) * task,
+                       records.firsts.data() + records.tile_count * task,
+                       records.next.data() + std::size_t{capacity} * task,
+                       0,
+                       0,
+                       0};
+    const std::uint64_t room = std::uint64_t{capacity - capacity / 16 - 1} * RecordPool::kChunk;
+    assign_homes(pool, records.counts.data() + records.tile_count * task, records.tile_count, room);
+    pool.capacity = capacity - pool.chunks / RecordPool::kChunk - 1;
+    return pool;
 }
 
-RecordPool empty_pool(TileRecords& records, std::uint32_t task, std::uint32_t capacity) {
-    std::uint32_t* const chains = records.chains.data() + 3 * records.tile_count * task;
-    const std::uint32_t used = assign_homes(records, task, capacity);
-    RecordPool pool = {records.records.data() + std::size_t{capacity} * kChunkRecords * task,
-                       records.next.data() + std::size_t{capacity} * task,
-                       chains,
-                       chains + 2 * records.tile_count,
-                       chains + records.tile_count,
-                       records.homes.data() + (records.tile_count + 1) * task,
-                       capacity,
-                       used};
-    std::memset(chains, 0, 2 * records.tile_count * sizeof(std::uint32_t)); // cursors and chunks
-    return pool;
+// In chunks, homes among them.
+std::uint64_t used_room(const RecordPool& pool) {
+    return pool.chunks / RecordPool::kChunk + std::uint64_t{pool.used} + 1;
 }
 
 struct CollectJob {
@@ -94,14 +84,13 @@ struct CollectJob {
     std::uint32_t capacity;
     ViewCull culls[kMaxViews];
     NarrowView narrows[kMaxViews];
-    BoxView boxes[kMaxViews];
     SpanView spans[kMaxViews];
 };
 
 void collect_task(const CollectJob& job, std::uint32_t task) {
     ManylightsBuilder& builder = job.builder;
     const auto task_count = static_cast<std::uint32_t>(builder.records.tasks.size());
-    RecordTask result = {empty_pool(builder.records, task, job.capacity), 0, {0, 0}, {}};
+    RecordTask result = {empty_pool(builder.records, task, job.capacity), 0, {0, 0}};
     const BlockSpans spans = spans_of(builder, task);
     const RecordBuffer buffer = buffer_of(builder, task);
     const Part part = part_of(job.blocks, task, task_count);
@@ -112,9 +101,7 @@ void collect_task(const CollectJob& job, std::uint32_t task) {
             bad = cull_block(job.culls[v], block_span(job.lights, b), block);
             builder.views[v].lights.counts[b] = block.count;
             span_block(job.spans[v], block, spans);
-            result.records += has_windows(builder)
-                                  ? narrow_block(job.narrows[v], block, spans, buffer, result.pool)
-                                  : box_block(job.boxes[v], block, spans, buffer, result.pool, result.farthest[v]);
+            result.records += narrow_block(job.narrows[v], block, spans, buffer, result.pool);
         }
         result.ignored = add_ignored(result.ignored, bad);
     }
@@ -123,8 +110,9 @@ void collect_task(const CollectJob& job, std::uint32_t task) {
 
 bool make_room(ManylightsBuilder& builder, std::uint32_t task_count, std::uint64_t capacity) {
     TileRecords& records = builder.records;
-    return records.tasks.resize(task_count) && records.records.resize(capacity * kChunkRecords * task_count) &&
-           records.next.resize(capacity * task_count) && records.chains.resize(3 * records.tile_count * task_count) &&
+    return records.tasks.resize(task_count) && records.records.resize(capacity * RecordPool::kChunk * task_count) &&
+           records.next.resize(capacity * task_count) && records.cursors.resize(records.tile_count * task_count) &&
+           records.firsts.resize(records.tile_count * task_count) &&
            records.homes.resize((records.tile_count + 1) * task_count) &&
            records.task_floats.resize(task_floats(builder) * task_count) &&
            records.task_words.resize(kTaskWords * task_count);
@@ -132,7 +120,7 @@ bool make_room(ManylightsBuilder& builder, std::uint32_t task_count, std::uint64
 
 // Chunks per task: what the sample lets expect, a chunk per tile that is begun, and a margin.
 std::uint64_t expected_chunks(const TileRecords& records, std::uint32_t task_count, std::uint64_t estimate) {
-    const std::uint64_t full = estimate / kChunkRecords / task_count;
+    const std::uint64_t full = estimate / RecordPool::kChunk / task_count;
     return std::min(full + full / 8 + std::min(records.tile_count, estimate) + 64, kMostChunks);
 }
 
@@ -149,10 +137,7 @@ void count_records(TileRecords& records) {
     std::uint32_t* out = records.counts.data();
     for (std::size_t task = 0; task < records.tasks.size(); ++task) {
         const RecordPool& pool = records.tasks[task].pool;
-        for (std::uint64_t t = 0; t < records.tile_count; ++t)
-            *out++ = pool.chunks[t] == 0
-                         ? 0
-                         : (pool.chunks[t] - 1) * kChunkRecords + (pool.cursors[t] - 1) % kChunkRecords + 1;
+        for (std::uint64_t t = 0; t < records.tile_count; ++t) *out++ = list_length(pool, t);
     }
 }
 
@@ -162,12 +147,11 @@ constexpr std::uint64_t kNarrowsAway = 4;
 // False: out of memory.
 bool prepare_job(CollectJob& job) {
     ManylightsBuilder& builder = job.builder;
-    if (has_windows(builder) && !make_narrow_views(builder, job.narrows)) return false;
+    if (!make_narrow_views(builder, job.narrows)) return false;
     for (std::uint32_t v = 0; v < builder.view_count; ++v) {
         const Grid& grid = builder.grids[v];
         job.culls[v] = make_view_cull(builder.views[v].camera, job.lights.motion_margin);
         job.spans[v] = {grid.tile_px, grid.width - 1, grid.height - 1};
-        job.boxes[v] = {grid.tiles_x, static_cast<std::uint32_t>(grid.tile_offset)};
         if (!builder.views[v].lights.resize(job.blocks)) return false;
     }
     return true;
@@ -180,7 +164,7 @@ std::uint64_t run_job(const CollectJob& job, std::uint32_t task_count) {
     std::uint64_t most_used = 0;
     records.count = 0;
     for (std::uint32_t task = 0; task < task_count; ++task) {
-        most_used = std::max<std::uint64_t>(most_used, records.tasks[task].pool.used);
+        most_used = std::max(most_used, used_room(records.tasks[task].pool));
         records.count += records.tasks[task].records;
     }
     return most_used;
@@ -199,10 +183,11 @@ bool list_results(ManylightsBuilder& builder) {
 
 void TileRecords::use(const Allocator& allocator) {
     for (Array<float>* array : {&sample_floats, &planes, &task_floats}) array->use(allocator);
-    for (Array<std::uint32_t>* array : {&sample_words, &next, &chains, &homes, &counts, &task_words})
+    for (Array<std::uint32_t>* array : {&sample_words, &next, &firsts, &homes, &counts, &task_words})
         array->use(allocator);
     sample_spheres.use(allocator);
     tasks.use(allocator);
+    cursors.use(allocator);
     records.use(allocator);
 }
 
@@ -211,7 +196,7 @@ Fit collect_records(ManylightsBuilder& builder, const ManylightsLights& lights, 
     const Fit too_many = has_to_do ? Fit::kTooLarge : Fit::kOverBudget;
     const std::uint64_t estimate = estimate_tiles(builder, builder.grids[0].tile_px);
     if (!has_to_do && estimate / kNarrowsAway > limit) return too_many;
-    CollectJob job{builder, lights, block_count_for(lights.count), 0, {}, {}, {}, {}};
+    CollectJob job{builder, lights, block_count_for(lights.count), 0, {}, {}, {}};
     if (!prepare_job(job)) return Fit::kOutOfMemory;
     const std::uint32_t task_count = light_task_count(builder, job.blocks, estimate);
     if (!keep_counts(builder.records, task_count)) return Fit::kOutOfMemory;
@@ -240,21 +225,10 @@ std::uint32_t tile_record_count(const TileRecords& records, std::uint64_t tile) 
 
 TileRuns list_runs(const TileRecords& records, std::uint64_t tile, RecordRun* runs) {
     std::uint32_t count = 0;
-    for (std::size_t task = 0; task < records.tasks.size(); ++task) {
-        const RecordPool& pool = records.tasks[task].pool;
-        const std::uint32_t chunks = pool.chunks[tile];
-        std::uint32_t chunk = pool.firsts[tile];
-        for (std::uint32_t c = 1; c <= chunks;) {
-            RecordRun run = {pool.records + std::size_t{chunk} * kChunkRecords, 0};
-            for (bool is_behind = true; is_behind && c <= chunks; ++c) { // chunks side by side
-                run.count += c < chunks ? kChunkRecords : (pool.cursors[tile] - 1) % kChunkRecords + 1;
-                const std::uint32_t next = c < chunks ? pool.next[chunk] : 0;
-                is_behind = next == chunk + 1;
-                chunk = next;
-            }
-            runs[count++] = run;
-        }
-    }
+    for (std::size_t task = 0; task < records.tasks.size(); ++task)
+        visit_list(records.tasks[task].pool, tile, [&](const TileRecord* first, std::uint32_t length) {
+            runs[count++] = {first, length};
+        });
     return {runs, count};
 }
 

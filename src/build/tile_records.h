@@ -1,10 +1,9 @@
 #pragma once
-// Lights to tiles, for all structures: each light is recorded in the tiles that its pixels span.
+// Lights to tiles, for windows: each light is recorded in the tiles that its pixels span, with its depths there.
 //
 //   cull     which lights are in view                                                           cull_lanes.cpp
 //   span     each light's tiles, by its pixels                                                  tile_spans.cpp
-//   record   windows: its depths in each of them, narrowed                                      windows_narrow.cpp
-//            depth slices: its depths                                                           grid_records.cpp
+//   record   its depths in each of them, narrowed                                               windows_narrow.cpp
 //
 // A block of lights goes through all of that while it is in the cache. Records are kept in chunks per tile. Each
 // light's outcome is its own, and a tile keeps the order of the lights' blocks and, within a block, of the lights'
@@ -12,6 +11,7 @@
 
 #include "src/build/cull.h"
 #include "src/build/grid.h"
+#include "src/build/homes.h"
 #include "src/format/layout.h"
 
 #include <manylights/format.h>
@@ -20,12 +20,11 @@
 
 namespace manylights::detail {
 
-// One light in one tile. Decided once, in plan; write replays it. Structures with depth slices keep the bits of two
-// floats, the light's depths.
+// One light in one tile. Decided once, in plan; write replays it.
 struct TileRecord {
     std::uint32_t light;     // the caller's index
-    std::uint32_t near_bits; // windows: depth code 24 bits, x0 4 bits, x1 4 bits
-    std::uint32_t far_bits;  // windows: depth code 24 bits, y0 4 bits, y1 4 bits
+    std::uint32_t near_bits; // depth code 24 bits, x0 4 bits, x1 4 bits
+    std::uint32_t far_bits;  // depth code 24 bits, y0 4 bits, y1 4 bits
 
     std::uint32_t near_code() const { return near_bits & ML_DEPTH_CODE_MAX; }
     std::uint32_t far_code() const { return far_bits & ML_DEPTH_CODE_MAX; }
@@ -71,20 +70,8 @@ struct NarrowView {
     std::uint32_t full_steps; // the last step of a tile
 };
 
-// The records of all tiles, as one task finds them. A tile has its own in a chain of chunks; chunk 0 is none's. The
-// first ones are the tile's home: so many, side by side, as the tile had use for the last time, one tile behind the
-// other. So who reads all tiles reads one chunk behind the other, unless the lights jumped.
-constexpr std::uint32_t kChunkRecords = 32;
-struct RecordPool {
-    TileRecord* records;
-    std::uint32_t* next;    // per chunk: the tile's next one
-    std::uint32_t* cursors; // per tile: behind its last record; 0: it has none
-    std::uint32_t* firsts;  // per tile: its first chunk
-    std::uint32_t* chunks;  // per tile: how many it has
-    std::uint32_t* homes;   // per tile: the first chunk of its home; behind it begins the next tile's
-    std::uint32_t capacity; // in chunks
-    std::uint32_t used;     // also where that is more than there are: then the records are worth nothing
-};
+// The records of all tiles, as one task finds them.
+using RecordPool = HomePool<TileRecord, HomeCursor, 32>;
 
 // Records on their way to their tiles, and room for the rows of one light.
 struct RecordBuffer {
@@ -96,15 +83,6 @@ constexpr std::uint32_t kBufferedRecords = 512;
 // Returns the number of records.
 std::uint64_t narrow_block(const NarrowView& view, const LightBlock& lights, const BlockSpans& spans,
                            const RecordBuffer& buffer, RecordPool& pool);
-
-// What recording needs to know of a view whose structure has depth slices.
-struct BoxView {
-    std::uint32_t tiles_x, first_tile;
-};
-
-// Likewise, with all depths of a light in each tile. farthest grows to where the farthest light ends.
-std::uint64_t box_block(const BoxView& view, const LightBlock& lights, const BlockSpans& spans,
-                        const RecordBuffer& buffer, RecordPool& pool, float& farthest);
 
 // Some of a tile's records. A vector may be read where the last one begins.
 struct RecordRun {
@@ -122,13 +100,14 @@ struct RecordTask {
     RecordPool pool;
     std::uint64_t records;
     Ignored ignored;
-    float farthest[kMaxViews]; // where there are depth slices
 };
 
 // What the sampled lights of a view say about all of them.
 struct LightSample {
-    std::uint64_t visible; // estimated
-    double weight;         // lights per sampled one
+    std::uint64_t visible;         // estimated
+    double weight;                 // lights per sampled one
+    float least_depth, most_depth; // where nearly all lights lie: powers of two; 0 without a light
+    float large_radius;            // likewise: hardly any is larger
 };
 
 struct TileRecords {
@@ -136,11 +115,12 @@ struct TileRecords {
     Array<ManylightsSphere> sample_spheres;
     Array<float> sample_floats;        // per view: a block
     Array<std::uint32_t> sample_words; // likewise
-    Array<float> planes;               // windows: of the views' columns and rows
+    Array<float> planes;               // of the views' columns and rows
     Array<RecordTask> tasks;           // that work on lights
     Array<TileRecord> records;         // per task
-    Array<std::uint32_t> next;         // per task, see RecordPool
-    Array<std::uint32_t> chains;       // per task and tile: cursors, firsts, chunks
+    Array<std::uint32_t> next;         // per task, see HomePool
+    Array<HomeCursor> cursors;         // per task and tile
+    Array<std::uint32_t> firsts;       // likewise
     Array<std::uint32_t> homes;        // likewise, and one behind
     Array<std::uint32_t> counts;       // per task and tile: records; while they are made, those of the last time, or 0
     Array<float> task_floats;          // per task: a block, and a buffer's rows
@@ -154,9 +134,9 @@ struct TileRecords {
 // A tile's records, in order.
 TileRuns list_runs(const TileRecords& records, std::uint64_t tile, RecordRun* runs);
 std::uint32_t tile_record_count(const TileRecords& records, std::uint64_t tile);
-// Runs that a tile of so many records may have: each task may leave a chunk unfilled.
+// Runs that a tile of so many records may have: each task may have a home for it, and leave a chunk unfilled.
 inline std::size_t run_room(const TileRecords& records, std::uint32_t largest_tile) {
-    return largest_tile / kChunkRecords + records.tasks.size();
+    return largest_tile / RecordPool::kChunk + 2 * records.tasks.size();
 }
 
 } // namespace manylights::detail

@@ -9,6 +9,8 @@
 // foreach_target comes first.
 #include <hwy/highway.h>
 
+#include "src/build/spans-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace manylights::detail::HWY_NAMESPACE {
 namespace {
@@ -18,29 +20,21 @@ using Floats = hn::Vec<hn::ScalableTag<float>>;
 using Words = hn::Vec<hn::ScalableTag<std::uint32_t>>;
 constexpr hn::ScalableTag<float> kF;
 constexpr hn::ScalableTag<std::uint32_t> kW;
-constexpr hn::ScalableTag<std::int32_t> kI;
-
-HWY_INLINE Floats to_float(Words v) { return hn::ConvertTo(kF, hn::BitCast(kI, v)); }
-HWY_INLINE Words to_word(Floats v) { return hn::BitCast(kW, hn::ConvertTo(kI, v)); }
-
-// v / tile_px for integers below 2^20, exactly: (v + 1/2) / tile_px is at least 1 / (2 tile_px) from an integer, and
-// its rounding is less than 2^-23 of v / tile_px.
-HWY_INLINE Words divide(Words v, Floats inverse) { return to_word((to_float(v) + hn::Set(kF, 0.5f)) * inverse); }
 
 struct AxisSpan {
     Words first_tile, last_tile, steps, is_clipped;
 };
 
 HWY_INLINE AxisSpan span_axis(Words pixels, std::uint32_t tile_px, std::uint32_t last_px) {
-    const Floats inverse = hn::Set(kF, 1.0f / static_cast<float>(tile_px));
+    const TileDivision divide(tile_px);
     const Words size = hn::Set(kW, tile_px);
     const Words first = hn::And(pixels, hn::Set(kW, 0xFFFF));
     const Words last = hn::ShiftRight<16>(pixels);
-    const Words first_tile = divide(first, inverse);
-    const Words last_tile = divide(last, inverse);
+    const Words first_tile = divide(first);
+    const Words last_tile = divide(last);
     // ml_tile_step, of the distance from the tile's first pixel.
-    const Words first_step = divide(hn::ShiftLeft<4>(first - first_tile * size), inverse);
-    const Words last_step = divide(hn::ShiftLeft<4>(last - last_tile * size), inverse);
+    const Words first_step = divide(hn::ShiftLeft<4>(first - first_tile * size));
+    const Words last_step = divide(hn::ShiftLeft<4>(last - last_tile * size));
     const auto clipped = hn::Or(first == hn::Zero(kW), last == hn::Set(kW, last_px));
     return {first_tile, last_tile, hn::Or(first_step, hn::ShiftLeft<4>(last_step)),
             hn::IfThenElseZero(clipped, hn::Set(kW, kSpanShapes))};

@@ -48,30 +48,29 @@ void write_views(const ManylightsBuilder& builder, const ManylightsBuffers& buff
     }
 }
 
-// What comes before this tile in all buffers together. Strictly ascending, so it cuts the tiles into tasks of equal
-// work; the cut decides who writes a byte, never which byte.
-std::uint64_t work_before(const ManylightsBuilder& builder, std::uint64_t tile) {
-    const bool is_end = tile == builder.records.tile_count;
-    if (has_windows(builder))
-        return kHeaderCells * tile + (is_end ? builder.counts.references : builder.windows.tiles[tile].first_reference);
-    const std::uint64_t before = builder.slices.count * tile;
-    if (is_end) return before + builder.counts.references + builder.counts.nodes;
-    const GridTile& of_tile = builder.cells.tiles[tile];
-    return before + of_tile.first_reference + of_tile.first_node;
+// What comes before this tile, or block of cells, in all buffers together. Ascending, so it cuts them into tasks of
+// equal work; the cut decides who writes a byte, never which byte.
+std::uint64_t work_before(const ManylightsBuilder& builder, std::uint64_t part) {
+    if (!has_windows(builder)) {
+        const CellBlock& block = builder.cells.blocks[part];
+        return part * kBlockCells + block.first_reference + block.first_node;
+    }
+    const bool is_end = part == builder.records.tile_count;
+    return kHeaderCells * part + (is_end ? builder.counts.references : builder.windows.tiles[part].first_reference);
 }
 
 void write_task(const WriteJob& job, std::uint32_t task) {
     ManylightsBuilder& builder = *job.builder;
     if (task == 0) write_views(builder, *job.buffers);
-    const auto before = [&](std::uint64_t tile) { return work_before(builder, tile); };
-    const std::uint64_t tiles = builder.records.tile_count;
-    const Part work = part_of(before(tiles), task, builder.task_count);
-    const std::uint64_t begin = first_with(tiles, work.begin, before);
-    const std::uint64_t end = first_with(tiles, work.end, before);
+    const auto before = [&](std::uint64_t part) { return work_before(builder, part); };
+    const std::uint64_t parts = has_windows(builder) ? builder.records.tile_count : builder.cells.blocks.size() - 1;
+    const Part work = part_of(before(parts), task, builder.task_count);
+    const std::uint64_t begin = first_with(parts, work.begin, before);
+    const std::uint64_t end = first_with(parts, work.end, before);
     if (has_windows(builder))
         write_window_tiles(builder, task, begin, end, *job.buffers);
     else
-        write_cell_tiles(builder, task, begin, end, *job.buffers);
+        write_cell_blocks(builder, task, begin, end, *job.buffers);
 }
 
 } // namespace

@@ -154,11 +154,9 @@ TEST(Precision, CountAndFillAgreeForEveryCell) {
             ASSERT_TRUE(frame.build({camera.view}, lights_of(spheres), 0xFF)) << frame.failure();
             ASSERT_TRUE(zeros == frame.bytes()) << structure_name(structure) << " seed " << seed;
             std::uint64_t sum = 0;
-            // References are in the order of the tiles, and within a tile in that of its slices.
-            const std::size_t tiles = std::size_t{frame.view().tiles_x} * frame.view().tiles_y;
+            // References are in the order of the cells.
             for (std::size_t i = 0; structure == MANYLIGHTS_STRUCTURE_LISTS && i < frame.cell_count(); ++i) {
-                const std::size_t slices = frame.cell_count() / tiles;
-                const MlCell cell = frame.buffers().cells[i % slices * tiles + i / slices];
+                const MlCell cell = frame.buffers().cells[i];
                 ASSERT_EQ(cell.first, sum);
                 sum += cell.count;
             }
