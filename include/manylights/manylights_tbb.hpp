@@ -29,13 +29,13 @@ inline void run_on_tbb(void* user, std::uint32_t count, ManylightsTask task, voi
         run();
 }
 
-// Sets parallel_for, and twice as many tasks as there are threads, so that uneven ones level out. arena outlives the
-// builder; null: see run_on_tbb.
+// Sets parallel_for, and as many tasks as there are threads: each costs its own lists of all tiles. Where threads are
+// uneven, set max_workers to more. arena outlives the builder; null: see run_on_tbb.
 inline void use_tbb(ManylightsSettings& settings, tbb::task_arena* arena = nullptr) {
     const int threads = arena != nullptr ? arena->max_concurrency() : tbb::this_task_arena::max_concurrency();
     settings.parallel_for = run_on_tbb;
     settings.parallel_user = arena;
-    settings.max_workers = static_cast<std::uint32_t>(std::clamp(2 * threads, 1, 1024));
+    settings.max_workers = static_cast<std::uint32_t>(std::clamp(threads, 1, 1024));
 }
 
 } // namespace manylights

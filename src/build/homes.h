@@ -4,8 +4,8 @@
 // chain. A home begins where the one before ends, so that reading all lists reads on through memory, unless what they
 // hold has changed much since.
 //
-//   items  | home of list 0 | home of list 1 | ... | home of the last | chunk 0 | chunk 1 | ... | for what is too much |
-//                                                 homes[list count] = chunks
+//   items  | home of list 0 | home of list 1 | ... | home of the last | chunk 0 | chunk 1 | ... | for too many |
+//                                          homes[list count] = chunks ^
 
 #include <cstdint>
 

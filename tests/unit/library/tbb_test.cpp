@@ -33,7 +33,7 @@ TEST(Tbb, BuildsTheSameBytes) {
         tbb::task_arena arena(4);
         ManylightsSettings settings = settings_of(structure);
         use_tbb(settings, &arena);
-        EXPECT_EQ(settings.max_workers, 8u);
+        EXPECT_EQ(settings.max_workers, 4u);
         const BuilderPtr builder = make_builder(settings);
         for (int i = 0; i < 3; ++i) EXPECT_EQ(build_frame(builder.get(), {make_view()}, spheres).bytes(), expected);
     }
