@@ -2,6 +2,7 @@
 #include "src/build/record_stages.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace manylights::detail {
 
@@ -28,24 +29,28 @@ std::uint64_t count_references(const ManylightsBuilder& builder) {
     return sum;
 }
 
-// Of all tasks together; keeps what each has, for the next time.
 struct CellSum {
     std::uint32_t count, extents;
 };
-CellSum sum_cell(Cells& cells, std::uint64_t cell_count, std::uint64_t cell) {
-    CellSum sum = {0, 0};
-    for (std::size_t task = 0; task < cells.pools.size(); ++task) {
-        const CellPool& pool = cells.pools[task];
-        const std::uint32_t count = list_length(pool, cell);
-        cells.counts[task * cell_count + cell] = count;
-        sum.count += count;
-        sum.extents += pool.cursors[cell].extent_sum;
+
+// Adds what a task has of some cells, to nothing if it is the first; keeps how many, for the next time. Returns how
+// many there are of all of them.
+std::uint64_t add_cells(const CellPool pool, bool is_first, std::uint64_t begin, std::uint64_t end,
+                        std::uint32_t* counts, CellSum* sums) {
+    std::uint64_t all = 0;
+    for (std::uint64_t c = begin; c < end; ++c) {
+        const CellCursor& cursor = pool.cursors[c];
+        const std::uint32_t count = cursor.next == pool.homes[c] ? 0 : list_length(pool, c); // mostly 0 or at home
+        CellSum& sum = sums[c - begin];
+        sum = {(is_first ? 0 : sum.count) + count, (is_first ? 0 : sum.extents) + cursor.extent_sum};
+        counts[c] = count;
+        all += count;
     }
-    return sum;
+    return all;
 }
 
 GridCell choose_kind(const Settings& settings, const CellSum& sum) {
-    if (sum.count == 0 || settings.structure == MANYLIGHTS_STRUCTURE_LISTS) return {sum.count, 0, 0};
+    if (settings.structure == MANYLIGHTS_STRUCTURE_LISTS) return {sum.count, 0, 0};
     // A tree of as many lights as a leaf holds would be one leaf.
     const bool is_tree = sum.count > settings.leaf_size &&
                          (settings.structure == MANYLIGHTS_STRUCTURE_TREES || prefers_tree(sum.extents));
@@ -55,16 +60,23 @@ GridCell choose_kind(const Settings& settings, const CellSum& sum) {
 
 void measure_block(ManylightsBuilder& builder, std::uint64_t index) {
     Cells& cells = builder.cells;
-    CellBlock block{};
     const std::uint64_t cell_count = builder.counts.cells;
-    const std::uint64_t end = std::min(cell_count, (index + 1) * kBlockCells);
-    for (std::uint64_t c = index * kBlockCells; c < end; ++c) {
-        const GridCell cell = choose_kind(builder.settings, sum_cell(cells, cell_count, c));
-        cells.cells[c] = cell;
-        block.first_reference += cell.count;
+    const std::uint64_t begin = index * kBlockCells;
+    const std::uint64_t end = std::min(cell_count, begin + kBlockCells);
+    CellSum sums[kBlockCells];
+    CellBlock block{};
+    for (std::size_t task = 0; task < cells.pools.size(); ++task)
+        block.first_reference +=
+            add_cells(cells.pools[task], task == 0, begin, end, cells.counts.data() + task * cell_count, sums);
+    GridCell* const out = cells.cells.data() + begin;
+    std::memset(static_cast<void*>(out), 0, (end - begin) * sizeof(GridCell));
+    for (std::uint64_t i = 0; block.first_reference != 0 && i < end - begin; ++i) {
+        if (sums[i].count == 0) continue;
+        const GridCell cell = choose_kind(builder.settings, sums[i]);
+        out[i] = cell;
         block.first_node += cell.node_count;
         block.tree_cells += cell.is_tree;
-        block.list_cells += cell.count != 0 && cell.is_tree == 0 ? 1 : 0;
+        block.list_cells += 1 - cell.is_tree;
         block.largest = std::max(block.largest, cell.count);
     }
     cells.blocks[index] = block;
