@@ -100,33 +100,64 @@ void write_nodes(const CellLights& lights, const GridCell& cell, std::uint32_t l
         nodes.pass(count);
 }
 
+// A task's way through its cells.
+class Writer {
+  public:
+    Writer(ManylightsBuilder& builder, std::uint32_t task, const CellBlock& first, const ManylightsBuffers& buffers)
+        : builder_(builder), lists_(builder.settings.structure == MANYLIGHTS_STRUCTURE_LISTS),
+          spans_(builder.cells.spans.data() + cell_room(builder.cells) * task),
+          heap_{builder.cells.heaps.data() + 2 * heap_room(builder) * task,
+                builder.cells.heaps.data() + (2 * std::size_t{task} + 1) * heap_room(builder)},
+          cells_(static_cast<MlCell*>(buffers.cells)), reference_(static_cast<std::uint32_t>(first.first_reference)),
+          node_(static_cast<std::uint32_t>(first.first_node)),
+          references_(static_cast<MlUint*>(buffers.references) + reference_),
+          nodes_(static_cast<MlNode*>(buffers.nodes) + node_) {}
+
+    // Cells without lights.
+    void skip(std::uint64_t begin, std::uint64_t end) {
+        const MlCell empty = {lists_ ? reference_ : node_, 0};
+        std::fill(cells_ + begin, cells_ + end, empty);
+    }
+
+    void write(std::uint64_t c, const DepthCodes& codes) {
+        const GridCell cell = builder_.cells.cells[c];
+        cells_[c] = lists_ ? MlCell{reference_, cell.count} : MlCell{node_, cell.node_count};
+        if (cell.count == 0) return;
+        unpack_cell(builder_.cells, c, spans_, references_);
+        if (!lists_)
+            write_nodes({spans_, cell.count, reference_, codes}, cell, builder_.settings.leaf_size, heap_, nodes_);
+        reference_ += cell.count;
+        node_ += cell.node_count;
+    }
+
+  private:
+    const ManylightsBuilder& builder_;
+    const bool lists_;
+    DepthSpan* const spans_;
+    const TreeHeap heap_;
+    MlCell* const cells_;
+    std::uint32_t reference_, node_;
+    References references_;
+    Nodes nodes_;
+};
+
 } // namespace
 
 void write_cell_blocks(ManylightsBuilder& builder, std::uint32_t task, std::uint64_t begin, std::uint64_t end,
                        const ManylightsBuffers& buffers) {
-    Cells& cells = builder.cells;
-    const bool lists = builder.settings.structure == MANYLIGHTS_STRUCTURE_LISTS;
-    DepthSpan* const spans = cells.spans.data() + cell_room(cells) * task;
-    float* const depths = cells.heaps.data() + 2 * heap_room(builder) * task;
-    const TreeHeap heap = {depths, depths + heap_room(builder)};
-    auto reference = static_cast<std::uint32_t>(cells.blocks[begin].first_reference);
-    auto node = static_cast<std::uint32_t>(cells.blocks[begin].first_node);
-    References references(static_cast<MlUint*>(buffers.references) + reference);
-    Nodes nodes(static_cast<MlNode*>(buffers.nodes) + node);
-    auto* const out = static_cast<MlCell*>(buffers.cells);
-    for (std::uint32_t v = 0; v < builder.view_count; ++v) {
-        const Grid& grid = builder.grids[v];
-        const std::uint64_t last = std::min(end * kBlockCells, grid.cell_offset() + grid.cell_count());
-        for (std::uint64_t c = std::max(begin * kBlockCells, grid.cell_offset()); c < last; ++c) {
-            const GridCell cell = cells.cells[c];
-            out[c] = lists ? MlCell{reference, cell.count} : MlCell{node, cell.node_count};
-            if (cell.count == 0) continue;
-            unpack_cell(cells, c, spans, references);
-            if (!lists)
-                write_nodes({spans, cell.count, reference, cells.codes[v]}, cell, builder.settings.leaf_size, heap,
-                            nodes);
-            reference += cell.count;
-            node += cell.node_count;
+    const Cells& cells = builder.cells;
+    Writer writer(builder, task, cells.blocks[begin], buffers);
+    std::uint32_t view = 0;
+    for (std::uint64_t b = begin; b < end; ++b) {
+        const std::uint64_t first = b * kBlockCells;
+        const std::uint64_t last = std::min<std::uint64_t>(first + kBlockCells, cells.cells.size());
+        if (cells.blocks[b + 1].first_reference == cells.blocks[b].first_reference) {
+            writer.skip(first, last);
+            continue;
+        }
+        for (std::uint64_t c = first; c < last; ++c) {
+            while (c >= builder.grids[view].cell_offset() + builder.grids[view].cell_count()) ++view;
+            writer.write(c, cells.codes[view]);
         }
     }
 }
