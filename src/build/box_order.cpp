@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 namespace manylights::detail {
 
@@ -13,7 +14,7 @@ constexpr std::size_t kBlockFloats = 4 * std::size_t{kBlockRoom};
 constexpr std::size_t kBlockPixels = 2 * std::size_t{kBlockRoom};
 // More bands than one for each few lights take longer to sum than the order gains.
 constexpr std::uint64_t kLightsPerBand = 8;
-constexpr std::uint64_t kLeastBands = 256, kMostBands = 8192;
+constexpr std::uint64_t kLeastBands = 256, kMostBands = 16384;
 struct BoxJob {
     ManylightsBuilder& builder;
     const ManylightsLights& lights;
@@ -35,14 +36,23 @@ std::uint32_t band_count_for(const LightSample& sample) {
     return static_cast<std::uint32_t>(std::clamp(sample.visible / kLightsPerBand, kLeastBands, kMostBands));
 }
 
-// The bands of the codes: so many of them, with as many of the sampled lights each as the steps allow.
-void make_bands(const LightBlock& sample, const DepthCodes& codes, std::uint32_t band_count, std::uint32_t* steps) {
+// For eight octaves beyond nearly all lights, and 24 before.
+DepthCodes band_codes_for(const LightSample& sample) {
+    constexpr int kShift = 8;
+    const float top = std::min(256.0f * sample.most_depth, std::numeric_limits<float>::max());
+    return {std::max((std::bit_cast<std::int32_t>(top) >> kShift) + 1 - DepthCodes::kMostLow, 0), 0, kShift};
+}
+
+// The bands of the codes. Half of them have as many of the sampled lights each; the other half are spread evenly, for
+// no sample knows where there are no lights.
+void make_bands(const LightBlock& sample, const DepthBands& bands, std::uint32_t* steps) {
     std::fill_n(steps, kBandSteps + 1, 0u);
-    for (std::uint32_t i = 0; i < sample.count; ++i) ++steps[codes.code_of(sample.depth[i]) >> kBandShift];
+    for (std::uint32_t i = 0; i < sample.count; ++i) ++steps[bands.codes.code_of(sample.depth[i]) >> kBandShift];
+    const std::uint64_t half = (bands.count - 1) / 2;
     std::uint64_t before = 0;
     for (std::uint32_t s = 0; s <= kBandSteps; ++s) {
         const std::uint32_t here = steps[s];
-        steps[s] = static_cast<std::uint32_t>(before * (band_count - 1) / std::max(sample.count, 1u));
+        steps[s] = static_cast<std::uint32_t>(before * half / std::max(sample.count, 1u) + s * half / kBandSteps);
         before += here;
     }
 }
@@ -78,7 +88,8 @@ bool prepare_boxes(BoxJob& job, std::uint32_t task_count) {
         const std::uint32_t band_count = band_count_for(sample);
         std::uint32_t* const steps = cells.band_steps.data() + (kBandSteps + std::size_t{1}) * v;
         cells.codes[v] = codes_for(builder, sample);
-        make_bands(sample_lights(builder, v), cells.codes[v], band_count, steps);
+        const DepthBands bands = {job.band_count, band_count, sample.large_radius, band_codes_for(sample), steps};
+        make_bands(sample_lights(builder, v), bands, steps);
         job.culls[v] = make_view_cull(builder.views[v].camera, job.lights.motion_margin);
         job.boxes[v] = {grid.tile_px,
                         grid.tiles_x,
@@ -86,7 +97,7 @@ bool prepare_boxes(BoxJob& job, std::uint32_t task_count) {
                         static_cast<std::uint32_t>(grid.cell_offset()),
                         &builder.slices,
                         cells.codes[v],
-                        {job.band_count, band_count, sample.large_radius, steps}};
+                        bands};
         job.band_count += band_count + (band_count >> kLargeShift);
         if (!builder.views[v].lights.resize(job.blocks)) return false;
     }

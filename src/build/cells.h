@@ -42,6 +42,7 @@ constexpr int kLargeShift = 3;
 struct DepthBands {
     std::uint32_t first, count; // of those of the others
     float large_radius;
+    DepthCodes codes;           // of near ends alone, for 32 octaves
     const std::uint32_t* steps; // kBandSteps + 1
 };
 

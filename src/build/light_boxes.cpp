@@ -26,7 +26,7 @@ HWY_INLINE Depths widen(Floats depth, Floats radius) {
 }
 
 HWY_INLINE Words find_bands(const BoxView& view, Floats depth, Floats radius) {
-    const Words code = hn::BitCast(kW, encode_depth(view.codes, depth));
+    const Words code = hn::BitCast(kW, encode_depth(view.bands.codes, depth));
     const auto* const steps = reinterpret_cast<const std::int32_t*>(view.bands.steps);
     const Ints step = hn::BitCast(kI, hn::ShiftRight<kBandShift>(code));
     const Words band = hn::BitCast(kW, hn::GatherIndex(kI, steps, step));
