@@ -1,5 +1,5 @@
-// The boxes of all visible lights, by depth: a counting sort, see DepthBands. Each task counts and places
-// the lights of its own blocks; lights of one band stay in the caller's order, whatever the tasks.
+// The boxes of all visible lights, by depth: a counting sort, see DepthBands. Each task counts and places the lights of
+// its own blocks; lights of one band stay in the caller's order, whatever the tasks.
 #include "src/build/record_stages.h"
 
 #include <algorithm>
@@ -15,6 +15,7 @@ constexpr std::size_t kBlockPixels = 2 * std::size_t{kBlockRoom};
 // More bands than one for each few lights take longer to sum than the order gains.
 constexpr std::uint64_t kLightsPerBand = 8;
 constexpr std::uint64_t kLeastBands = 256, kMostBands = 16384;
+
 struct BoxJob {
     ManylightsBuilder& builder;
     const ManylightsLights& lights;

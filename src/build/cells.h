@@ -40,7 +40,8 @@ constexpr std::uint32_t kBandStep = 1u << kBandShift;
 constexpr std::uint32_t kBandSteps = (1u << DepthCodes::kLowBits) >> kBandShift;
 constexpr int kLargeShift = 3;
 struct DepthBands {
-    std::uint32_t first, count; // of those of the others
+    std::uint32_t first; // of the view
+    std::uint32_t count; // of all others'
     float large_radius;
     DepthCodes codes;           // of near ends alone, for 32 octaves
     const std::uint32_t* steps; // kBandSteps + 1
