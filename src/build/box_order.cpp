@@ -10,8 +10,6 @@ namespace manylights::detail {
 
 namespace {
 
-constexpr std::size_t kBlockFloats = 4 * std::size_t{kBlockRoom};
-constexpr std::size_t kBlockPixels = 2 * std::size_t{kBlockRoom};
 // More bands than one for each few lights take longer to sum than the order gains.
 constexpr std::uint64_t kLightsPerBand = 8;
 constexpr std::uint64_t kLeastBands = 256, kMostBands = 16384;
@@ -65,16 +63,8 @@ BlockBoxes boxes_of(Cells& cells, std::uint64_t blocks, std::uint32_t view, std:
 }
 
 LightBlock scratch_block(Cells& cells, std::uint32_t task, std::uint32_t* index) {
-    float* const floats = cells.block_floats.data() + kBlockFloats * task;
-    std::uint32_t* const pixels = cells.block_pixels.data() + kBlockPixels * task;
-    return {floats,
-            floats + kBlockRoom,
-            floats + 2 * std::size_t{kBlockRoom},
-            floats + 3 * std::size_t{kBlockRoom},
-            index,
-            pixels,
-            pixels + kBlockRoom,
-            0};
+    return lay_out_block(cells.block_floats.data() + kBlockFloats * task,
+                         cells.block_pixels.data() + kBlockPixels * task, index);
 }
 
 // False: out of memory.
@@ -169,15 +159,6 @@ void place_task(const BoxJob& job, std::uint32_t task) {
             place_block(boxes_of(cells, job.blocks, v, b), builder.views[v].lights.counts[b], next, cells.boxes.data());
 }
 
-bool finish_culling(ManylightsBuilder& builder) {
-    builder.ignored = {};
-    for (std::size_t task = 0; task < builder.cells.box_tasks.size(); ++task)
-        builder.ignored = add_ignored(builder.ignored, builder.cells.box_tasks[task].ignored);
-    for (std::uint32_t v = 0; v < builder.view_count; ++v)
-        if (!list_visible(builder.views[v])) return false;
-    return true;
-}
-
 } // namespace
 
 bool order_boxes(ManylightsBuilder& builder, const ManylightsLights& lights) {
@@ -190,7 +171,7 @@ bool order_boxes(ManylightsBuilder& builder, const ManylightsLights& lights) {
     const std::size_t visible = cells.first_light[builder.view_count] + std::size_t{kLanePadding};
     if (!cells.boxes.resize(visible)) return false;
     run_tasks(builder.settings, task_count, [&](std::uint32_t task) { place_task(job, task); });
-    return finish_culling(builder);
+    return finish_culling(builder, cells.box_tasks);
 }
 
 } // namespace manylights::detail

@@ -92,14 +92,6 @@ PoolRoom pool_room(std::uint64_t records, std::uint64_t cells) {
     return {records + records / 4 + begun * CellPool::kChunk, records / CellPool::kChunk + begun};
 }
 
-// Of other cells, or of other tasks, nothing is known.
-bool keep_counts(Cells& cells, std::size_t size) {
-    if (cells.counts.size() == size) return true;
-    if (!cells.counts.resize(size)) return false;
-    cells.counts.fill_zero();
-    return true;
-}
-
 // False: out of memory, or more than positions can count.
 bool make_pools(ManylightsBuilder& builder, std::uint32_t task_count) {
     Cells& cells = builder.cells;
@@ -107,7 +99,7 @@ bool make_pools(ManylightsBuilder& builder, std::uint32_t task_count) {
     if (!cells.pools.resize(task_count) || !cells.cursors.resize(count * task_count) ||
         !cells.homes.resize((count + 1) * task_count) || !cells.firsts.resize(count * task_count) ||
         !cells.buffers.resize(kBufferWords * task_count) || !cells.segment_records.resize(kSegmentRoom * task_count) ||
-        !keep_counts(cells, count * task_count))
+        !keep_lengths(cells.counts, count * task_count))
         return false;
     std::uint64_t records = 0;
     std::uint64_t chunks = 0;

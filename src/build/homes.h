@@ -7,6 +7,8 @@
 //   items  | home of list 0 | home of list 1 | ... | home of the last | chunk 0 | chunk 1 | ... | for too many |
 //                                          homes[list count] = chunks ^
 
+#include "src/build/array.h"
+
 #include <cstdint>
 
 namespace manylights::detail {
@@ -29,7 +31,15 @@ struct HomePool {
     std::uint32_t used;     // also where that is more than there are: then what the lists hold is worth nothing
 };
 
-// Of homes of lists of these lengths, as far as that much room suffices. Chunks begin behind them.
+// Keeps the lengths of the last time; of other lists, or as many others, nothing is known. False: out of memory.
+[[nodiscard]] inline bool keep_lengths(Array<std::uint32_t>& lengths, std::size_t size) {
+    if (lengths.size() == size) return true;
+    if (!lengths.resize(size)) return false;
+    lengths.fill_zero();
+    return true;
+}
+
+// Homes for lists of these lengths, as far as that much room suffices. Chunks begin behind them.
 template <typename Item, typename Cursor, std::uint32_t kChunk>
 void assign_homes(HomePool<Item, Cursor, kChunk>& pool, const std::uint32_t* lengths, std::uint64_t list_count,
                   std::uint64_t room) {

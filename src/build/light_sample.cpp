@@ -22,8 +22,9 @@ static_assert(kSampleLights <= kBlockLights);
 LightBlock sample_block(TileRecords& records, std::uint32_t view) {
     float* const floats = records.sample_floats.data() + 4 * kBlockRoom * std::size_t{view};
     std::uint32_t* const words = records.sample_words.data() + 4 * kBlockRoom * std::size_t{view};
-    return {floats, floats + kBlockRoom, floats + 2 * kBlockRoom, floats + 3 * kBlockRoom,
-            words,  words + kBlockRoom,  words + 2 * kBlockRoom,  words[3 * kBlockRoom]};
+    LightBlock block = lay_out_block(floats, words + kBlockRoom, words);
+    block.count = words[3 * kBlockRoom];
+    return block;
 }
 
 // One light of each step, at an uneven place in it: the caller's lights may have an order of their own.

@@ -17,6 +17,16 @@ LightBlock sample_lights(ManylightsBuilder& builder, std::uint32_t view);
 std::uint32_t first_tile_px(ManylightsBuilder& builder);
 std::uint64_t estimate_tiles(ManylightsBuilder& builder, std::uint32_t tile_px);
 
+// What the tasks that culled have found, for the caller. False: out of memory.
+template <typename Task>
+[[nodiscard]] bool finish_culling(ManylightsBuilder& builder, const Array<Task>& tasks) {
+    builder.ignored = {};
+    for (std::size_t i = 0; i < tasks.size(); ++i) builder.ignored = add_ignored(builder.ignored, tasks[i].ignored);
+    for (std::uint32_t v = 0; v < builder.view_count; ++v)
+        if (!list_visible(builder.views[v])) return false;
+    return true;
+}
+
 // The planes of a view's columns and rows at its tile size. False: out of memory.
 [[nodiscard]] bool make_narrow_views(ManylightsBuilder& builder, NarrowView (&views)[kMaxViews]);
 

@@ -30,16 +30,9 @@ std::uint32_t light_task_count(const ManylightsBuilder& builder, std::uint64_t b
 
 // A block's scratch in a task: what stays of its lights is their indices.
 LightBlock block_of(ManylightsBuilder& builder, std::uint32_t task, View& view, std::uint64_t block) {
-    float* const floats = builder.records.task_floats.data() + task_floats(builder) * task;
-    std::uint32_t* const words = builder.records.task_words.data() + kTaskWords * task;
-    return {floats,
-            floats + kBlockRoom,
-            floats + 2 * kBlockRoom,
-            floats + 3 * kBlockRoom,
-            view.lights.index.data() + block * kBlockRoom,
-            words,
-            words + kBlockRoom,
-            0};
+    return lay_out_block(builder.records.task_floats.data() + task_floats(builder) * task,
+                         builder.records.task_words.data() + kTaskWords * task,
+                         view.lights.index.data() + block * kBlockRoom);
 }
 
 BlockSpans spans_of(ManylightsBuilder& builder, std::uint32_t task) {
@@ -124,15 +117,6 @@ std::uint64_t expected_chunks(const TileRecords& records, std::uint32_t task_cou
     return std::min(full + full / 8 + std::min(records.tile_count, estimate) + 64, kMostChunks);
 }
 
-// Of other tiles, or of other tasks, nothing is known.
-bool keep_counts(TileRecords& records, std::uint32_t task_count) {
-    const std::size_t size = records.tile_count * task_count;
-    if (records.counts.size() == size) return true;
-    if (!records.counts.resize(size)) return false;
-    records.counts.fill_zero();
-    return true;
-}
-
 void count_records(TileRecords& records) {
     std::uint32_t* out = records.counts.data();
     for (std::size_t task = 0; task < records.tasks.size(); ++task) {
@@ -170,15 +154,6 @@ std::uint64_t run_job(const CollectJob& job, std::uint32_t task_count) {
     return most_used;
 }
 
-bool list_results(ManylightsBuilder& builder) {
-    builder.ignored = {};
-    for (std::size_t task = 0; task < builder.records.tasks.size(); ++task)
-        builder.ignored = add_ignored(builder.ignored, builder.records.tasks[task].ignored);
-    for (std::uint32_t v = 0; v < builder.view_count; ++v)
-        if (!list_visible(builder.views[v])) return false;
-    return true;
-}
-
 } // namespace
 
 void TileRecords::use(const Allocator& allocator) {
@@ -199,7 +174,7 @@ Fit collect_records(ManylightsBuilder& builder, const ManylightsLights& lights, 
     CollectJob job{builder, lights, block_count_for(lights.count), 0, {}, {}, {}};
     if (!prepare_job(job)) return Fit::kOutOfMemory;
     const std::uint32_t task_count = light_task_count(builder, job.blocks, estimate);
-    if (!keep_counts(builder.records, task_count)) return Fit::kOutOfMemory;
+    if (!keep_lengths(builder.records.counts, builder.records.tile_count * task_count)) return Fit::kOutOfMemory;
     // The room that is there is used, too: where lights jump, homes are left half empty.
     std::uint64_t capacity = expected_chunks(builder.records, task_count, estimate);
     if (builder.records.tasks.size() == task_count)
@@ -213,7 +188,7 @@ Fit collect_records(ManylightsBuilder& builder, const ManylightsLights& lights, 
         capacity = std::min(most_used + most_used / 8, kMostChunks);
     }
     count_records(builder.records);
-    return list_results(builder) ? Fit::kFits : Fit::kOutOfMemory;
+    return finish_culling(builder, builder.records.tasks) ? Fit::kFits : Fit::kOutOfMemory;
 }
 
 std::uint32_t tile_record_count(const TileRecords& records, std::uint64_t tile) {

@@ -22,6 +22,14 @@ struct LightBlock {
     std::uint32_t count;
 };
 
+// A block without lights in this memory: kBlockFloats, kBlockPixels, and kBlockRoom for the indices.
+constexpr std::size_t kBlockFloats = 4 * std::size_t{kBlockRoom};
+constexpr std::size_t kBlockPixels = 2 * std::size_t{kBlockRoom};
+inline LightBlock lay_out_block(float* floats, std::uint32_t* pixels, std::uint32_t* index) {
+    constexpr std::size_t kRoom = kBlockRoom;
+    return {floats, floats + kRoom, floats + 2 * kRoom, floats + 3 * kRoom, index, pixels, pixels + kRoom, 0};
+}
+
 // What stays of a view's lights: the indices of the visible ones, in their blocks' rooms.
 struct ViewLights {
     Array<std::uint32_t> index;
