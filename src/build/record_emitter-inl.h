@@ -27,13 +27,9 @@ constexpr hn::ScalableTag<std::int32_t> kI;
 
 // As many lights take each step together whatever a vector holds: a tile's order depends on it.
 constexpr std::uint32_t kTogether = 16;
-constexpr std::uint32_t kVectors = kTogether / static_cast<std::uint32_t>(hn::MaxLanes(kF));
-static_assert(kVectors * hn::MaxLanes(kF) == kTogether);
-
-HWY_INLINE Floats gather(const float* from, Ints positions) { return hn::GatherIndex(kF, from, positions); }
-HWY_INLINE Words gather(const std::uint32_t* from, Ints positions) {
-    return hn::BitCast(kW, hn::GatherIndex(kI, reinterpret_cast<const std::int32_t*>(from), positions));
-}
+constexpr auto kLanes = static_cast<std::uint32_t>(hn::MaxLanes(kF));
+constexpr std::uint32_t kVectors = kTogether / kLanes;
+static_assert(kVectors * kLanes == kTogether);
 
 // The records of a tile keep their order. First all places, then all records: a place that is looked up between stores
 // to other places waits until it is known that none of these was to it.

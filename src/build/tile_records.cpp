@@ -8,7 +8,7 @@ namespace manylights::detail {
 namespace {
 
 constexpr std::size_t kBufferRoom = kBufferedRecords + 2 * kLanePadding;
-constexpr std::size_t kTaskWords = 6 * std::size_t{kBlockRoom} + kSpanGroups + 4 * kBufferRoom;
+constexpr std::size_t kTaskWords = 3 * std::size_t{kBlockRoom} + kSpanGroups + 4 * kBufferRoom;
 constexpr std::uint64_t kMostChunks = UINT32_MAX / RecordPool::kChunk;
 
 std::size_t row_room(const ManylightsBuilder& builder) {
@@ -37,12 +37,13 @@ LightBlock block_of(ManylightsBuilder& builder, std::uint32_t task, View& view, 
 
 BlockSpans spans_of(ManylightsBuilder& builder, std::uint32_t task) {
     std::uint32_t* const words = builder.records.task_words.data() + kTaskWords * task + 2 * kBlockRoom;
-    return {words, words + kBlockRoom, words + 2 * kBlockRoom, words + 3 * kBlockRoom, words + 4 * kBlockRoom};
+    const std::size_t first = std::size_t{kBlockRoom} * task;
+    return {builder.records.spheres.data() + first, builder.records.spans.data() + first, words, words + kBlockRoom};
 }
 
 RecordBuffer buffer_of(ManylightsBuilder& builder, std::uint32_t task) {
     std::uint32_t* const words =
-        builder.records.task_words.data() + kTaskWords * task + 6 * std::size_t{kBlockRoom} + kSpanGroups;
+        builder.records.task_words.data() + kTaskWords * task + 3 * std::size_t{kBlockRoom} + kSpanGroups;
     const std::size_t room = row_room(builder);
     float* const rows = builder.records.task_floats.data() + task_floats(builder) * task + 4 * kBlockRoom;
     return {words, words + kBufferRoom, words + 2 * kBufferRoom, words + 3 * kBufferRoom,
@@ -94,7 +95,7 @@ void collect_task(const CollectJob& job, std::uint32_t task) {
             bad = cull_block(job.culls[v], block_span(job.lights, b), block);
             builder.views[v].lights.counts[b] = block.count;
             span_block(job.spans[v], block, spans);
-            result.records += narrow_block(job.narrows[v], block, spans, buffer, result.pool);
+            result.records += narrow_block(job.narrows[v], spans, buffer, result.pool);
         }
         result.ignored = add_ignored(result.ignored, bad);
     }
@@ -108,7 +109,9 @@ bool make_room(ManylightsBuilder& builder, std::uint32_t task_count, std::uint64
            records.firsts.resize(records.tile_count * task_count) &&
            records.homes.resize((records.tile_count + 1) * task_count) &&
            records.task_floats.resize(task_floats(builder) * task_count) &&
-           records.task_words.resize(kTaskWords * task_count);
+           records.task_words.resize(kTaskWords * task_count) &&
+           records.spheres.resize(std::size_t{kBlockRoom} * task_count) &&
+           records.spans.resize(std::size_t{kBlockRoom} * task_count);
 }
 
 // Chunks per task: what the sample lets expect, a chunk per tile that is begun, and a margin.
@@ -157,10 +160,13 @@ std::uint64_t run_job(const CollectJob& job, std::uint32_t task_count) {
 } // namespace
 
 void TileRecords::use(const Allocator& allocator) {
-    for (Array<float>* array : {&sample_floats, &planes, &task_floats}) array->use(allocator);
+    for (Array<float>* array : {&sample_floats, &task_floats}) array->use(allocator);
     for (Array<std::uint32_t>* array : {&sample_words, &next, &firsts, &homes, &counts, &task_words})
         array->use(allocator);
     sample_spheres.use(allocator);
+    planes.use(allocator);
+    spheres.use(allocator);
+    spans.use(allocator);
     tasks.use(allocator);
     cursors.use(allocator);
     records.use(allocator);

@@ -37,12 +37,20 @@ constexpr std::uint32_t kSpanShapes = kSmallSpan * kSmallSpan; // of lights with
 constexpr std::uint32_t kLargeSpan = 2 * kSpanShapes;          // behind them those that its edge cuts
 constexpr std::uint32_t kSpanGroups = kLargeSpan + 1;          // and all others
 
-// What a block's lights span: parallel to its arrays.
+// A block's lights, and what each spans: side by side, for they are read in another order.
+struct SpanSphere {
+    float x, y, depth, radius; // see LightBlock
+};
+struct SpanTiles {
+    std::uint32_t light;
+    std::uint32_t first, last; // x | y << 16
+    std::uint32_t steps;       // first and last in x, first and last in y, 4 bits each
+};
 struct BlockSpans {
-    std::uint32_t *first_tile, *last_tile; // x | y << 16
-    std::uint32_t* steps;                  // first and last in x, first and last in y, 4 bits each
-    std::uint32_t* order;                  // positions in the block, by group
-    std::uint32_t* ends;                   // of the groups in order
+    SpanSphere* spheres;
+    SpanTiles* tiles;
+    std::uint32_t* order; // positions in the block, by group
+    std::uint32_t* ends;  // of the groups in order
 };
 
 // What spanning needs to know of a view.
@@ -58,12 +66,12 @@ std::uint64_t count_tiles(const SpanView& view, const LightBlock& lights);
 
 // The planes of a column or a row towards the one before and the one behind it.
 struct AxisPlanes {
-    float *before_offset, *before_depth, *behind_offset, *behind_depth;
+    float before_offset, before_depth, behind_offset, behind_depth;
 };
 
 // What narrowing needs to know of a view.
 struct NarrowView {
-    AxisPlanes columns, rows;
+    const AxisPlanes *columns, *rows;
     float near_depth, far_depth; // of what is promised, widened
     float depth_scale;
     std::uint32_t tiles_x, first_tile;
@@ -81,8 +89,8 @@ struct RecordBuffer {
 constexpr std::uint32_t kBufferedRecords = 512;
 
 // Returns the number of records.
-std::uint64_t narrow_block(const NarrowView& view, const LightBlock& lights, const BlockSpans& spans,
-                           const RecordBuffer& buffer, RecordPool& pool);
+std::uint64_t narrow_block(const NarrowView& view, const BlockSpans& spans, const RecordBuffer& buffer,
+                           RecordPool& pool);
 
 // Some of a tile's records. A vector may be read where the last one begins.
 struct RecordRun {
@@ -115,7 +123,7 @@ struct TileRecords {
     Array<ManylightsSphere> sample_spheres;
     Array<float> sample_floats;        // per view: a block
     Array<std::uint32_t> sample_words; // likewise
-    Array<float> planes;               // of the views' columns and rows
+    Array<AxisPlanes> planes;          // of the views' columns and rows
     Array<RecordTask> tasks;           // that work on lights
     Array<TileRecord> records;         // per task
     Array<std::uint32_t> next;         // per task, see HomePool
@@ -124,7 +132,9 @@ struct TileRecords {
     Array<std::uint32_t> homes;        // likewise, and one behind
     Array<std::uint32_t> counts;       // per task and tile: records; while they are made, those of the last time, or 0
     Array<float> task_floats;          // per task: a block, and a buffer's rows
-    Array<std::uint32_t> task_words;   // per task: a block, its spans, and a buffer
+    Array<std::uint32_t> task_words;   // per task: a block, its order, and a buffer
+    Array<SpanSphere> spheres;         // per task: a block's
+    Array<SpanTiles> spans;            // likewise
     std::uint64_t tile_count = 0;      // of all views
     std::uint64_t count = 0;           // of records
 

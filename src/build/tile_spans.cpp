@@ -90,9 +90,14 @@ void span_block(const SpanView& view, const LightBlock& lights, const BlockSpans
     for (std::size_t i = 0; i < lights.count; i += hn::Lanes(kW)) {
         const AxisSpan x = span_axis(hn::LoadU(kW, lights.pixels_x + i), view.tile_px, view.last_px_x);
         const AxisSpan y = span_axis(hn::LoadU(kW, lights.pixels_y + i), view.tile_px, view.last_px_y);
-        hn::StoreU(hn::Or(x.first_tile, hn::ShiftLeft<16>(y.first_tile)), kW, spans.first_tile + i);
-        hn::StoreU(hn::Or(x.last_tile, hn::ShiftLeft<16>(y.last_tile)), kW, spans.last_tile + i);
-        hn::StoreU(hn::Or(x.steps, hn::ShiftLeft<8>(y.steps)), kW, spans.steps + i);
+        const Floats light_x = hn::LoadU(kF, lights.x + i);
+        const Floats light_y = hn::LoadU(kF, lights.y + i);
+        const Floats depth = hn::LoadU(kF, lights.depth + i);
+        const Floats radius = hn::LoadU(kF, lights.radius + i);
+        hn::StoreInterleaved4(light_x, light_y, depth, radius, kF, &spans.spheres[i].x);
+        hn::StoreInterleaved4(hn::LoadU(kW, lights.index + i), hn::Or(x.first_tile, hn::ShiftLeft<16>(y.first_tile)),
+                              hn::Or(x.last_tile, hn::ShiftLeft<16>(y.last_tile)),
+                              hn::Or(x.steps, hn::ShiftLeft<8>(y.steps)), kW, &spans.tiles[i].light);
         hn::StoreU(group_of(x, y, can_narrow(lights, i)), kW, groups + i);
     }
     order_groups(groups, lights.count, spans);

@@ -11,6 +11,7 @@
 
 #include "src/build/narrow-inl.h"
 #include "src/build/record_emitter-inl.h"
+#include "src/build/structs-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace manylights::detail::HWY_NAMESPACE {
@@ -62,16 +63,12 @@ HWY_INLINE PlanesInUse planes_in_use(std::uint32_t step, std::uint32_t count, bo
     return {step > 0 || is_clipped, step + 1 < count || is_clipped};
 }
 
-// first: the number of the lights' first tile, in the image. What is not in use means nothing.
-HWY_INLINE void load_planes(const AxisPlanes& planes, Words first, std::uint32_t step, PlanesInUse use,
-                            TilePlanes& loaded) {
-    const Ints tile = hn::BitCast(kI, first + hn::Set(kW, step));
-    const auto load = [&](bool is_used, const float* from)
-                          HWY_ATTR { return is_used ? gather(from, tile) : hn::Zero(kF); };
-    loaded.before_offset = load(use.before, planes.before_offset);
-    loaded.before_depth = load(use.before, planes.before_depth);
-    loaded.behind_offset = load(use.behind, planes.behind_offset);
-    loaded.behind_depth = load(use.behind, planes.behind_depth);
+HWY_INLINE bool has_planes(PlanesInUse use) { return use.before || use.behind; }
+
+// Of tile number step; first: per lane, where the planes of tile 0 begin.
+HWY_INLINE TilePlanes load_planes(const AxisPlanes* planes, const std::uint32_t* first, std::uint32_t step) {
+    const FourFloats loaded = load_structs(&planes[step].before_offset, first);
+    return {loaded.a, loaded.b, loaded.c, loaded.d};
 }
 
 HWY_INLINE Cuts cut_tile(const Spheres& spheres, const TilePlanes& planes, PlanesInUse use) {
@@ -91,29 +88,31 @@ HWY_INLINE Words steps_of(Words steps, std::uint32_t step, std::uint32_t count, 
 // A vector of a group's lights.
 struct GroupLights {
     Spheres along_x, along_y;
-    Words first_column, first_row, first_tile, light, steps;
+    Words first_tile, light, steps;
     Mask present;
+    HWY_ALIGN std::uint32_t column_planes[kLanes], row_planes[kLanes]; // where those of the first tile begin, in words
 };
+constexpr int kStructShift = 2; // of four words each
 
-HWY_INLINE void load_lights(const NarrowView& view, const LightBlock& lights, const BlockSpans& spans, std::uint32_t i,
-                            std::uint32_t end, GroupLights& loaded) {
+HWY_INLINE void load_lights(const NarrowView& view, const BlockSpans& spans, std::uint32_t i, std::uint32_t end,
+                            GroupLights& loaded) {
     loaded.present = hn::FirstN(kF, i < end ? end - i : 0);
     const Words order = hn::IfThenElseZero(hn::RebindMask(kW, loaded.present), hn::LoadU(kW, spans.order + i));
-    const Ints at = hn::BitCast(kI, order);
-    const Floats x = gather(lights.x, at);
-    const Floats y = gather(lights.y, at);
-    const Floats depth = gather(lights.depth, at);
-    const Floats radius = gather(lights.radius, at);
-    const Floats slack = narrow_slack(x, y, depth, radius);
-    const Words first = gather(spans.first_tile, at);
-    loaded.along_x = {x, depth, radius, slack};
-    loaded.along_y = {y, depth, radius, slack};
-    loaded.first_column = hn::And(first, hn::Set(kW, 0xFFFF));
-    loaded.first_row = hn::ShiftRight<16>(first);
-    loaded.first_tile =
-        hn::Set(kW, view.first_tile) + loaded.first_row * hn::Set(kW, view.tiles_x) + loaded.first_column;
-    loaded.light = gather(lights.index, at);
-    loaded.steps = gather(spans.steps, at);
+    HWY_ALIGN std::uint32_t words[kLanes];
+    hn::Store(hn::ShiftLeft<kStructShift>(order), kW, words);
+    const FourFloats sphere = load_structs(&spans.spheres->x, words);
+    const FourFloats tiles = load_structs(reinterpret_cast<const float*>(spans.tiles), words);
+    const Floats slack = narrow_slack(sphere.a, sphere.b, sphere.c, sphere.d);
+    const Words first = hn::BitCast(kW, tiles.b);
+    const Words column = hn::And(first, hn::Set(kW, 0xFFFF));
+    const Words row = hn::ShiftRight<16>(first);
+    loaded.along_x = {sphere.a, sphere.c, sphere.d, slack};
+    loaded.along_y = {sphere.b, sphere.c, sphere.d, slack};
+    loaded.first_tile = hn::Set(kW, view.first_tile) + row * hn::Set(kW, view.tiles_x) + column;
+    loaded.light = hn::BitCast(kW, tiles.a);
+    loaded.steps = hn::BitCast(kW, tiles.d);
+    hn::Store(hn::ShiftLeft<kStructShift>(column), kW, loaded.column_planes);
+    hn::Store(hn::ShiftLeft<kStructShift>(row), kW, loaded.row_planes);
 }
 
 HWY_INLINE void narrow_row(const NarrowView& view, const SpanGroup& group, const GroupLights (&lights)[kVectors],
@@ -123,9 +122,7 @@ HWY_INLINE void narrow_row(const NarrowView& view, const SpanGroup& group, const
     Spheres caps[kVectors];
     for (std::uint32_t v = 0; v < kVectors; ++v) {
         const GroupLights& l = lights[v];
-        TilePlanes planes;
-        load_planes(view.rows, l.first_row, r, use, planes);
-        rows[v] = cut_tile(l.along_y, planes, use);
+        rows[v] = has_planes(use) ? cut_tile(l.along_y, load_planes(view.rows, l.row_planes, r), use) : uncut(l.along_y);
         caps[v] = caps_of(l.along_x, rows[v]);
     }
     for (std::uint32_t c = 0; c < group.columns; ++c) {
@@ -141,26 +138,26 @@ HWY_INLINE void narrow_row(const NarrowView& view, const SpanGroup& group, const
     }
 }
 
-void narrow_group(const NarrowView& view, const LightBlock& lights, const BlockSpans& spans, const SpanGroup& group,
-                  Emitter& emitter) {
-    const auto lanes = static_cast<std::uint32_t>(hn::Lanes(kF));
+void narrow_group(const NarrowView& view, const BlockSpans& spans, const SpanGroup& group, Emitter& emitter) {
     for (std::uint32_t i = group.begin; i < group.end; i += kTogether) {
         GroupLights together[kVectors];
         TilePlanes columns[kSmallSpan][kVectors];
         for (std::uint32_t v = 0; v < kVectors; ++v) {
-            load_lights(view, lights, spans, i + v * lanes, group.end, together[v]);
+            load_lights(view, spans, i + v * kLanes, group.end, together[v]);
             for (std::uint32_t c = 0; c < group.columns; ++c)
-                load_planes(view.columns, together[v].first_column, c,
-                            planes_in_use(c, group.columns, group.is_clipped), columns[c][v]);
+                if (has_planes(planes_in_use(c, group.columns, group.is_clipped)))
+                    columns[c][v] = load_planes(view.columns, together[v].column_planes, c);
         }
         for (std::uint32_t r = 0; r < group.rows; ++r) narrow_row(view, group, together, columns, r, emitter);
     }
 }
 
 // Of tiles [first, first + lanes) along an axis.
-HWY_INLINE TilePlanes load_planes(const AxisPlanes& planes, std::uint32_t first) {
-    return {hn::LoadU(kF, planes.before_offset + first), hn::LoadU(kF, planes.before_depth + first),
-            hn::LoadU(kF, planes.behind_offset + first), hn::LoadU(kF, planes.behind_depth + first)};
+HWY_INLINE TilePlanes load_planes(const AxisPlanes* first) {
+    TilePlanes planes;
+    hn::LoadInterleaved4(kF, &first->before_offset, planes.before_offset, planes.before_depth, planes.behind_offset,
+                         planes.behind_depth);
+    return planes;
 }
 
 struct LargeLight {
@@ -170,30 +167,28 @@ struct LargeLight {
     bool narrows; // see narrow_slack
 };
 
-HWY_INLINE LargeLight load_light(const LightBlock& lights, const BlockSpans& spans, std::uint32_t at) {
-    const Floats x = hn::Set(kF, lights.x[at]);
-    const Floats y = hn::Set(kF, lights.y[at]);
-    const Floats depth = hn::Set(kF, lights.depth[at]);
-    const Floats radius = hn::Set(kF, lights.radius[at]);
+HWY_INLINE LargeLight load_light(const SpanSphere& sphere, const SpanTiles& tiles) {
+    const Floats x = hn::Set(kF, sphere.x);
+    const Floats y = hn::Set(kF, sphere.y);
+    const Floats depth = hn::Set(kF, sphere.depth);
+    const Floats radius = hn::Set(kF, sphere.radius);
     const Floats slack = narrow_slack(x, y, depth, radius);
     const float sum = hn::GetLane(slack);
-    const std::uint32_t first = spans.first_tile[at];
-    const std::uint32_t last = spans.last_tile[at];
     return {{x, depth, radius, slack},
             {y, depth, radius, slack},
-            lights.index[at],
-            spans.steps[at],
-            first & 0xFFFF,
-            last & 0xFFFF,
-            first >> 16,
-            last >> 16,
+            tiles.light,
+            tiles.steps,
+            tiles.first & 0xFFFF,
+            tiles.last & 0xFFFF,
+            tiles.first >> 16,
+            tiles.last >> 16,
             sum >= 1e-9f * 0x1p-20f && sum <= 4e18f * 0x1p-20f};
 }
 
 void cut_rows(const NarrowView& view, const LargeLight& light, const RecordBuffer& buffer) {
     for (std::uint32_t y = light.first_y; y <= light.last_y; y += static_cast<std::uint32_t>(hn::Lanes(kF))) {
         const Cuts rows =
-            light.narrows ? cut_tile(light.along_y, load_planes(view.rows, y), {true, true}) : uncut(light.along_y);
+            light.narrows ? cut_tile(light.along_y, load_planes(view.rows + y), {true, true}) : uncut(light.along_y);
         const Spheres caps = light.narrows ? caps_of(light.along_x, rows) : light.along_x;
         hn::StoreU(rows.low, kF, buffer.row_low + (y - light.first_y));
         hn::StoreU(rows.high, kF, buffer.row_high + (y - light.first_y));
@@ -213,7 +208,7 @@ void narrow_large(const NarrowView& view, const LargeLight& light, Emitter& emit
     for (std::uint32_t x = light.first_x; x <= light.last_x; x += static_cast<std::uint32_t>(hn::Lanes(kF))) {
         const Words column = hn::Iota(kW, x);
         const Mask present = hn::FirstN(kF, light.last_x - x + 1);
-        const TilePlanes planes = load_planes(view.columns, x);
+        const TilePlanes planes = load_planes(view.columns + x);
         const Words steps_x = hn::Or(hn::IfThenElseZero(column == first_x, begin_step),
                                      hn::IfThenElse(column == last_x, end_step, hn::Set(kW, view.full_steps << 4)));
         for (std::uint32_t y = light.first_y; y <= light.last_y; ++y) {
@@ -234,19 +229,19 @@ void narrow_large(const NarrowView& view, const LargeLight& light, Emitter& emit
 
 } // namespace
 
-std::uint64_t narrow_block(const NarrowView& view, const LightBlock& lights, const BlockSpans& spans,
-                           const RecordBuffer& buffer, RecordPool& pool) {
+std::uint64_t narrow_block(const NarrowView& view, const BlockSpans& spans, const RecordBuffer& buffer,
+                           RecordPool& pool) {
     Emitter emitter(buffer, pool);
     std::uint32_t begin = 0;
     for (std::uint32_t g = 0; g < kLargeSpan; ++g) {
         const std::uint32_t shape = g % kSpanShapes;
         const SpanGroup group = {begin, spans.ends[g], shape % kSmallSpan + 1, shape / kSmallSpan + 1,
                                  g >= kSpanShapes};
-        narrow_group(view, lights, spans, group, emitter);
+        narrow_group(view, spans, group, emitter);
         begin = spans.ends[g];
     }
     for (std::uint32_t i = begin; i < spans.ends[kLargeSpan]; ++i)
-        narrow_large(view, load_light(lights, spans, spans.order[i]), emitter);
+        narrow_large(view, load_light(spans.spheres[spans.order[i]], spans.tiles[spans.order[i]]), emitter);
     return emitter.finish();
 }
 
@@ -258,9 +253,9 @@ namespace manylights::detail {
 
 HWY_EXPORT(narrow_block);
 
-std::uint64_t narrow_block(const NarrowView& view, const LightBlock& lights, const BlockSpans& spans,
-                           const RecordBuffer& buffer, RecordPool& pool) {
-    return HWY_DYNAMIC_DISPATCH(narrow_block)(view, lights, spans, buffer, pool);
+std::uint64_t narrow_block(const NarrowView& view, const BlockSpans& spans, const RecordBuffer& buffer,
+                           RecordPool& pool) {
+    return HWY_DYNAMIC_DISPATCH(narrow_block)(view, spans, buffer, pool);
 }
 
 } // namespace manylights::detail

@@ -9,18 +9,17 @@ namespace manylights::detail {
 
 namespace {
 
-// The planes of all columns or rows; see AxisPlanes. Behind the last one are planes that cut nothing.
-AxisPlanes make_planes(const Axis& axis, std::uint32_t tile_px, std::uint32_t count, double guard_px, float* at) {
+// The planes of all columns or rows. Behind the last one are planes that cut nothing.
+const AxisPlanes* make_planes(const Axis& axis, std::uint32_t tile_px, std::uint32_t count, double guard_px,
+                              AxisPlanes* planes) {
     const std::size_t room = count + kLanePadding;
-    const AxisPlanes planes = {at, at + room, at + 2 * room, at + 3 * room};
     const int before = axis.scale > 0.0 ? 0 : 1; // the side of the lesser pixels
     for (std::uint32_t i = 0; i < room; ++i) {
         const std::uint32_t first = i < count ? i * tile_px : 0;
         const TileWedge wedge = tile_wedge(axis, first, std::min(first + (tile_px - 1), axis.size - 1), guard_px);
-        planes.before_offset[i] = static_cast<float>(wedge.sides[before].offset);
-        planes.before_depth[i] = static_cast<float>(wedge.sides[before].depth);
-        planes.behind_offset[i] = static_cast<float>(wedge.sides[1 - before].offset);
-        planes.behind_depth[i] = static_cast<float>(wedge.sides[1 - before].depth);
+        const auto& sides = wedge.sides;
+        planes[i] = {static_cast<float>(sides[before].offset), static_cast<float>(sides[before].depth),
+                     static_cast<float>(sides[1 - before].offset), static_cast<float>(sides[1 - before].depth)};
     }
     return planes;
 }
@@ -33,7 +32,7 @@ float widened_far(double depth) {
                                            : std::numeric_limits<float>::infinity();
 }
 
-std::size_t plane_room(const Grid& grid) { return 4 * std::size_t{grid.tiles_x + grid.tiles_y + 2 * kLanePadding}; }
+std::size_t plane_room(const Grid& grid) { return std::size_t{grid.tiles_x} + grid.tiles_y + 2 * kLanePadding; }
 
 } // namespace
 
@@ -41,14 +40,14 @@ bool make_narrow_views(ManylightsBuilder& builder, NarrowView (&views)[kMaxViews
     std::size_t room = 0;
     for (std::uint32_t v = 0; v < builder.view_count; ++v) room += plane_room(builder.grids[v]);
     if (!builder.records.planes.resize(room)) return false;
-    float* at = builder.records.planes.data();
+    AxisPlanes* at = builder.records.planes.data();
     for (std::uint32_t v = 0; v < builder.view_count; ++v) {
         const Grid& grid = builder.grids[v];
         const Camera& camera = builder.views[v].camera;
         NarrowView& view = views[v];
         view.columns = make_planes(camera.axes[0], grid.tile_px, grid.tiles_x, camera.guard_px, at);
         view.rows = make_planes(camera.axes[1], grid.tile_px, grid.tiles_y, camera.guard_px,
-                                at + 4 * std::size_t{grid.tiles_x + kLanePadding});
+                                at + grid.tiles_x + kLanePadding);
         view.near_depth = widened_near(camera.near_depth);
         view.far_depth = widened_far(camera.far_depth);
         view.depth_scale = builder.windows.views[v].depth_scale;
