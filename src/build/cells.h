@@ -177,7 +177,7 @@ struct Cells {
     Array<GridCell> cells;
     Array<CellBlock> blocks; // and one behind the last
     Array<DepthSpan> spans;  // per task that writes, of a cell's lights
-    Array<float> heaps;      // likewise
+    Array<NodeDepths> heaps; // likewise
     std::uint32_t write_tasks = 1;
 
     std::uint32_t largest_cell() const { return blocks[blocks.size() - 1].largest; }

@@ -124,7 +124,7 @@ bool prepare_writing(ManylightsBuilder& builder) {
     cells.write_tasks = static_cast<std::uint32_t>(
         std::min<std::uint64_t>(task_count_for(builder.settings, work, kWorkPerTask), useful));
     return cells.spans.resize(cell_room(cells) * cells.write_tasks) &&
-           cells.heaps.resize(2 * heap_room(builder) * cells.write_tasks);
+           cells.heaps.resize(heap_room(builder) * cells.write_tasks);
 }
 
 } // namespace
@@ -149,7 +149,8 @@ void Cells::use(const Allocator& allocator) {
          {&found_bands, &band_steps, &bands, &block_pixels, &homes, &firsts, &counts, &next, &buffers, &spans})
         array->use(allocator);
     for (Array<CellRecord>* array : {&records, &segment_records}) array->use(allocator);
-    for (Array<float>* array : {&block_floats, &heaps}) array->use(allocator);
+    block_floats.use(allocator);
+    heaps.use(allocator);
     for (Array<LightBox>* array : {&found, &boxes}) array->use(allocator);
     box_tasks.use(allocator);
     segments.use(allocator);

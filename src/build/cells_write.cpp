@@ -85,7 +85,7 @@ HWY_INLINE void unpack_cell(const Cells& cells, std::uint64_t cell, DepthSpan* s
     }
 }
 
-void write_nodes(const CellLights& lights, const GridCell& cell, std::uint32_t leaf_size, const TreeHeap& heap,
+void write_nodes(const CellLights& lights, const GridCell& cell, std::uint32_t leaf_size, NodeDepths* heap,
                  Nodes& nodes) {
     const std::uint32_t count = cell.node_count;
     const bool is_small = count <= kSmallTreeNodes;
@@ -106,8 +106,7 @@ class Writer {
     Writer(ManylightsBuilder& builder, std::uint32_t task, const CellBlock& first, const ManylightsBuffers& buffers)
         : builder_(builder), lists_(builder.settings.structure == MANYLIGHTS_STRUCTURE_LISTS),
           spans_(builder.cells.spans.data() + cell_room(builder.cells) * task),
-          heap_{builder.cells.heaps.data() + 2 * heap_room(builder) * task,
-                builder.cells.heaps.data() + (2 * std::size_t{task} + 1) * heap_room(builder)},
+          heap_(builder.cells.heaps.data() + heap_room(builder) * task),
           cells_(static_cast<MlCell*>(buffers.cells)), reference_(static_cast<std::uint32_t>(first.first_reference)),
           node_(static_cast<std::uint32_t>(first.first_node)),
           references_(static_cast<MlUint*>(buffers.references) + reference_),
@@ -134,7 +133,7 @@ class Writer {
     const ManylightsBuilder& builder_;
     const bool lists_;
     DepthSpan* const spans_;
-    const TreeHeap heap_;
+    NodeDepths* const heap_;
     MlCell* const cells_;
     std::uint32_t reference_, node_;
     References references_;

@@ -10,6 +10,7 @@
 
 #include "src/build/depth_codes-inl.h"
 #include "src/build/spans-inl.h"
+#include "src/build/structs-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace manylights::detail::HWY_NAMESPACE {
@@ -27,10 +28,11 @@ HWY_INLINE Depths widen(Floats depth, Floats radius) {
 
 HWY_INLINE Words find_bands(const BoxView& view, Floats depth, Floats radius) {
     const Words code = hn::BitCast(kW, encode_depth(view.bands.codes, depth));
-    const auto* const steps = reinterpret_cast<const std::int32_t*>(view.bands.steps);
-    const Ints step = hn::BitCast(kI, hn::ShiftRight<kBandShift>(code));
-    const Words band = hn::BitCast(kW, hn::GatherIndex(kI, steps, step));
-    const Words next = hn::BitCast(kW, hn::GatherIndex(kI, steps + 1, step));
+    HWY_ALIGN std::uint32_t steps[hn::MaxLanes(kW)];
+    hn::Store(hn::ShiftRight<kBandShift>(code), kW, steps);
+    const TwoFloats found_steps = load_pairs(reinterpret_cast<const float*>(view.bands.steps), steps);
+    const Words band = hn::BitCast(kW, found_steps.a);
+    const Words next = hn::BitCast(kW, found_steps.b);
     const Words part = hn::And(code, hn::Set(kW, kBandStep - 1));
     const Words found = band + hn::ShiftRight<kBandShift>((next - band) * part);
     const auto large = hn::RebindMask(kW, radius >= hn::Set(kF, view.bands.large_radius));

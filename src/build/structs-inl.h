@@ -1,4 +1,4 @@
-// Vectors from structures of four words that lie anywhere: included once per instruction set, see lanes.h.
+// Vectors from structures of two or four words that lie anywhere: included once per instruction set, see lanes.h.
 //
 // A processor's gather takes about two cycles per lane and field (AMD Zen 3: 17 for eight lanes). A structure's fields
 // lie side by side, so one load gets four of them, and a few shuffles sort them to their vectors: a fifth of the time.
@@ -17,11 +17,25 @@ HWY_BEFORE_NAMESPACE();
 namespace manylights::detail::HWY_NAMESPACE {
 namespace {
 
+struct TwoFloats {
+    hwy::HWY_NAMESPACE::Vec<hwy::HWY_NAMESPACE::ScalableTag<float>> a, b;
+};
 struct FourFloats {
     hwy::HWY_NAMESPACE::Vec<hwy::HWY_NAMESPACE::ScalableTag<float>> a, b, c, d;
 };
 
 #if HWY_TARGET != HWY_SCALAR
+// Two words each for the lanes row, row + 1, row + 4, row + 5...: side by side.
+template <class D>
+HWY_INLINE hwy::HWY_NAMESPACE::Vec<D> load_pair_rows(D d, const float* base, const std::uint32_t* words) {
+    using namespace hwy::HWY_NAMESPACE;
+    const Half<D> half;
+    if constexpr (MaxLanes(D()) <= 4)
+        return Combine(d, LoadU(half, base + words[1]), LoadU(half, base + words[0]));
+    else
+        return Combine(d, load_pair_rows(half, base, words + MaxLanes(half)), load_pair_rows(half, base, words));
+}
+
 // Four words each for the lanes row, row + 4, row + 8...: side by side, 128 bits each.
 template <class D>
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<D> load_rows(D d, const float* base, const std::uint32_t* words) {
@@ -36,6 +50,19 @@ HWY_INLINE hwy::HWY_NAMESPACE::Vec<D> load_rows(D d, const float* base, const st
 #endif
 
 // words: per lane, where its structure begins.
+HWY_INLINE TwoFloats load_pairs(const float* base, const std::uint32_t* words) {
+    using namespace hwy::HWY_NAMESPACE;
+    const ScalableTag<float> d;
+#if HWY_TARGET == HWY_SCALAR
+    return {Set(d, base[words[0]]), Set(d, base[words[0] + 1])};
+#else
+    const auto row0 = load_pair_rows(d, base, words);
+    const auto row2 = load_pair_rows(d, base, words + 2);
+    const auto low = InterleaveLower(d, row0, row2);
+    const auto high = InterleaveUpper(d, row0, row2);
+    return {InterleaveLower(d, low, high), InterleaveUpper(d, low, high)};
+#endif
+}
 HWY_INLINE FourFloats load_structs(const float* base, const std::uint32_t* words) {
     using namespace hwy::HWY_NAMESPACE;
     const ScalableTag<float> d;

@@ -58,10 +58,9 @@ BuiltTree build_tree(std::uint32_t count, std::uint32_t leaf_size) {
     const std::uint64_t node_count = tree_node_count(count, leaf_size);
     built.nodes.resize(node_count + kSpanPadding);
     const std::size_t room = 2 * std::size_t{tree_shape(count, leaf_size).leaf_count} + kSpanPadding;
-    std::vector<float> heap(2 * room);
+    std::vector<NodeDepths> heap(room);
     const CellLights cell = {built.spans.data(), count, 100, kCodes};
-    EXPECT_EQ(write_trees(cell, leaf_size, {heap.data(), heap.data() + room}, built.nodes.data()),
-              built.nodes.data() + node_count);
+    EXPECT_EQ(write_trees(cell, leaf_size, heap.data(), built.nodes.data()), built.nodes.data() + node_count);
     built.nodes.resize(node_count);
     return built;
 }
