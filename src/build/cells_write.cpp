@@ -106,8 +106,8 @@ class Writer {
     Writer(ManylightsBuilder& builder, std::uint32_t task, const CellBlock& first, const ManylightsBuffers& buffers)
         : builder_(builder), lists_(builder.settings.structure == MANYLIGHTS_STRUCTURE_LISTS),
           spans_(builder.cells.spans.data() + cell_room(builder.cells) * task),
-          heap_(builder.cells.heaps.data() + heap_room(builder) * task),
-          cells_(static_cast<MlCell*>(buffers.cells)), reference_(static_cast<std::uint32_t>(first.first_reference)),
+          heap_(builder.cells.heaps.data() + heap_room(builder) * task), cells_(static_cast<MlCell*>(buffers.cells)),
+          reference_(static_cast<std::uint32_t>(first.first_reference)),
           node_(static_cast<std::uint32_t>(first.first_node)),
           references_(static_cast<MlUint*>(buffers.references) + reference_),
           nodes_(static_cast<MlNode*>(buffers.nodes) + node_) {}

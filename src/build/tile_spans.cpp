@@ -27,16 +27,15 @@ struct AxisSpan {
 
 HWY_INLINE AxisSpan span_axis(Words pixels, std::uint32_t tile_px, std::uint32_t last_px) {
     const TileDivision divide(tile_px);
-    const Words size = hn::Set(kW, tile_px);
     const Words first = hn::And(pixels, hn::Set(kW, 0xFFFF));
     const Words last = hn::ShiftRight<16>(pixels);
-    const Words first_tile = divide(first);
-    const Words last_tile = divide(last);
-    // ml_tile_step, of the distance from the tile's first pixel.
-    const Words first_step = divide(hn::ShiftLeft<4>(first - first_tile * size));
-    const Words last_step = divide(hn::ShiftLeft<4>(last - last_tile * size));
+    // In steps, of which a tile has 16: ml_tile_step is the rest, for whole tiles cancel.
+    const Words first_steps = divide(hn::ShiftLeft<4>(first));
+    const Words last_steps = divide(hn::ShiftLeft<4>(last));
+    const Words steps =
+        hn::Or(hn::And(first_steps, hn::Set(kW, 15)), hn::And(hn::ShiftLeft<4>(last_steps), hn::Set(kW, 240)));
     const auto clipped = hn::Or(first == hn::Zero(kW), last == hn::Set(kW, last_px));
-    return {first_tile, last_tile, hn::Or(first_step, hn::ShiftLeft<4>(last_step)),
+    return {hn::ShiftRight<4>(first_steps), hn::ShiftRight<4>(last_steps), steps,
             hn::IfThenElseZero(clipped, hn::Set(kW, kSpanShapes))};
 }
 
@@ -55,20 +54,26 @@ HWY_INLINE Words group_of(const AxisSpan& x, const AxisSpan& y, hn::Mask<hn::Sca
     return hn::IfThenElse(is_small, group, hn::Set(kW, kLargeSpan));
 }
 
-// Positions by group, ascending within each. Four parts of the block are counted and placed side by side: lights of one
-// group tend to follow each other, and one count would wait for the other.
+// Positions by group, ascending within each. Four parts of the block are counted side by side: lights of one group tend
+// to follow each other, and one count would wait for the other. A light's number in its group and part is kept with the
+// group: the second pass adds what comes before, and counts nothing.
 constexpr std::uint32_t kParts = 4;
+constexpr int kGroupBits = 8;
+constexpr std::uint32_t kGroupMask = (1u << kGroupBits) - 1;
+static_assert(kSpanGroups <= kGroupMask);
 
 struct GroupCounts {
     std::uint32_t of[kSpanGroups][kParts];
 };
 
-HWY_INLINE void order_groups(const std::uint32_t* groups, std::uint32_t count, const BlockSpans& spans) {
+HWY_INLINE void order_groups(std::uint32_t* groups, std::uint32_t count, const BlockSpans& spans) {
     GroupCounts counts = {};
-    const std::uint32_t part = count / kParts;
-    for (std::uint32_t i = 0; i < part; ++i)
-        for (std::uint32_t p = 0; p < kParts; ++p) ++counts.of[groups[p * part + i]][p];
-    for (std::uint32_t i = kParts * part; i < count; ++i) ++counts.of[groups[i]][kParts - 1];
+    const auto number = [&](std::uint32_t i, std::uint32_t part)
+                            HWY_ATTR { groups[i] |= counts.of[groups[i]][part]++ << kGroupBits; };
+    const std::uint32_t size = count / kParts;
+    for (std::uint32_t i = 0; i < size; ++i)
+        for (std::uint32_t p = 0; p < kParts; ++p) number(p * size + i, p);
+    for (std::uint32_t i = kParts * size; i < count; ++i) number(i, kParts - 1);
     std::uint32_t sum = 0;
     for (std::uint32_t g = 0; g < kSpanGroups; ++g) {
         for (std::uint32_t p = 0; p < kParts; ++p) {
@@ -78,9 +83,11 @@ HWY_INLINE void order_groups(const std::uint32_t* groups, std::uint32_t count, c
         }
         spans.ends[g] = sum;
     }
-    for (std::uint32_t i = 0; i < part; ++i)
-        for (std::uint32_t p = 0; p < kParts; ++p) spans.order[counts.of[groups[p * part + i]][p]++] = p * part + i;
-    for (std::uint32_t i = kParts * part; i < count; ++i) spans.order[counts.of[groups[i]][kParts - 1]++] = i;
+    for (std::uint32_t p = 0; p < kParts; ++p) {
+        const std::uint32_t end = p + 1 < kParts ? (p + 1) * size : count;
+        for (std::uint32_t i = p * size; i < end; ++i)
+            spans.order[counts.of[groups[i] & kGroupMask][p] + (groups[i] >> kGroupBits)] = i;
+    }
 }
 
 } // namespace

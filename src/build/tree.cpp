@@ -98,7 +98,8 @@ HWY_INLINE void fill_heap(const DepthCodes& codes, const DepthSpan* spans, const
     const std::uint32_t leaves = tree.shape.leaf_count;
     std::uint32_t filled = fill_full_leaves(codes, spans, tree);
     const std::uint32_t begin = tree.lights_before(filled);
-    if (begin < tree.light_count) heap[leaves + filled++] = unite_lights(codes, spans + begin, tree.light_count - begin);
+    if (begin < tree.light_count)
+        heap[leaves + filled++] = unite_lights(codes, spans + begin, tree.light_count - begin);
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     for (; filled < leaves; ++filled) heap[leaves + filled] = {kInfinity, -kInfinity};
     std::uint32_t parents = leaves / 2;
@@ -137,8 +138,8 @@ HWY_INLINE void write_small_tree(const Tree& tree, MlNode* out) {
         const Words is_leaf = hn::IfThenElseZero(levels == hn::Zero(kW), hn::Set(kW, ML_NODE_LEAF));
         const Words bits = hn::Or(hn::Or(hn::ShiftLeft<ML_NODE_COUNT_SHIFT>(count), is_leaf), width + width - one);
         hn::StoreInterleaved4(hn::BitCast(kW, depths.a), hn::BitCast(kW, depths.b),
-                              hn::Set(kW, tree.first_reference) + begin,
-                              bits, kW, reinterpret_cast<std::uint32_t*>(out + i));
+                              hn::Set(kW, tree.first_reference) + begin, bits, kW,
+                              reinterpret_cast<std::uint32_t*>(out + i));
     }
 }
 

@@ -21,8 +21,8 @@ struct CellLights {
 // Room behind the last span of a cell's lights.
 constexpr std::uint32_t kSpanPadding = 64;
 
-// A tree's depths, in scratch: 2 * leaf_count of the largest one and kSpanPadding more. 1 is the root, 2i and 2i + 1 are
-// the children of i, the leaves are the last leaf_count. What nothing reaches is (+inf, -inf).
+// A tree's depths, in scratch: 2 * leaf_count of the largest one and kSpanPadding more. 1 is the root, 2i and 2i + 1
+// are the children of i, the leaves are the last leaf_count. What nothing reaches is (+inf, -inf).
 struct NodeDepths {
     float low, high;
 };

@@ -122,7 +122,8 @@ HWY_INLINE void narrow_row(const NarrowView& view, const SpanGroup& group, const
     Spheres caps[kVectors];
     for (std::uint32_t v = 0; v < kVectors; ++v) {
         const GroupLights& l = lights[v];
-        rows[v] = has_planes(use) ? cut_tile(l.along_y, load_planes(view.rows, l.row_planes, r), use) : uncut(l.along_y);
+        rows[v] =
+            has_planes(use) ? cut_tile(l.along_y, load_planes(view.rows, l.row_planes, r), use) : uncut(l.along_y);
         caps[v] = caps_of(l.along_x, rows[v]);
     }
     for (std::uint32_t c = 0; c < group.columns; ++c) {

@@ -46,8 +46,8 @@ bool make_narrow_views(ManylightsBuilder& builder, NarrowView (&views)[kMaxViews
         const Camera& camera = builder.views[v].camera;
         NarrowView& view = views[v];
         view.columns = make_planes(camera.axes[0], grid.tile_px, grid.tiles_x, camera.guard_px, at);
-        view.rows = make_planes(camera.axes[1], grid.tile_px, grid.tiles_y, camera.guard_px,
-                                at + grid.tiles_x + kLanePadding);
+        view.rows =
+            make_planes(camera.axes[1], grid.tile_px, grid.tiles_y, camera.guard_px, at + grid.tiles_x + kLanePadding);
         view.near_depth = widened_near(camera.near_depth);
         view.far_depth = widened_far(camera.far_depth);
         view.depth_scale = builder.windows.views[v].depth_scale;
