@@ -12,6 +12,7 @@
 #define HWY_TARGET_INCLUDE "src/build/windows_tile.cpp"
 #include <hwy/foreach_target.h>
 // foreach_target comes first.
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include "src/build/sums-inl.h"
@@ -35,8 +36,13 @@ struct RecordLanes {
     Words light, near_bits, far_bits, near_code, far_code;
 };
 
+// Records of tiles that follow each other mostly do, too: what is read next is fetched meanwhile, whatever tile it is of.
+constexpr std::size_t kAhead = 1024;
+
 HWY_INLINE RecordLanes load_records(const TileRecord* records) {
     RecordLanes r;
+    hwy::Prefetch(reinterpret_cast<const char*>(records) + kAhead);
+    hwy::Prefetch(reinterpret_cast<const char*>(records) + kAhead + 64);
     hn::LoadInterleaved3(kW, reinterpret_cast<const std::uint32_t*>(records), r.light, r.near_bits, r.far_bits);
     r.near_code = hn::And(r.near_bits, hn::Set(kW, ML_DEPTH_CODE_MAX));
     r.far_code = hn::And(r.far_bits, hn::Set(kW, ML_DEPTH_CODE_MAX));
