@@ -82,7 +82,7 @@ class BlockWork {
         const detail::Grid& grid = builder.grids[0];
         const detail::SpanView view = {grid.tile_px, grid.width - 1, grid.height - 1};
         detail::LightBlock block = {floats(0), floats(1), floats(2), floats(3), words(0), words(1), words(2), 0};
-        const detail::BlockSpans spans = {words(3), words(4), words(5), words(6), ends_};
+        const detail::BlockSpans spans = {spheres_.data(), tiles_.data(), words(3), ends_};
         for (std::uint64_t b = 0; b < detail::block_count_for(lights.count); ++b) {
             detail::cull_block(cull, detail::block_span(lights, b), block);
             if (spans_too) detail::span_block(view, block, spans);
@@ -94,7 +94,9 @@ class BlockWork {
     std::uint32_t* words(std::size_t i) { return words_.data() + i * detail::kBlockRoom; }
 
     std::vector<float> floats_ = std::vector<float>(4 * std::size_t{detail::kBlockRoom});
-    std::vector<std::uint32_t> words_ = std::vector<std::uint32_t>(7 * std::size_t{detail::kBlockRoom});
+    std::vector<std::uint32_t> words_ = std::vector<std::uint32_t>(4 * std::size_t{detail::kBlockRoom});
+    std::vector<detail::SpanSphere> spheres_ = std::vector<detail::SpanSphere>(detail::kBlockRoom);
+    std::vector<detail::SpanTiles> tiles_ = std::vector<detail::SpanTiles>(detail::kBlockRoom);
     std::uint32_t ends_[detail::kSpanGroups];
 };
 

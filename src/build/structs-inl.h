@@ -1,7 +1,7 @@
 // Vectors from structures of two or four words that lie anywhere: included once per instruction set, see lanes.h.
 //
 // A processor's gather takes about two cycles per lane and field (AMD Zen 3: 17 for eight lanes). A structure's fields
-// lie side by side, so one load gets four of them, and a few shuffles sort them to their vectors: a fifth of the time.
+// lie side by side, so one load gets them all, and a few shuffles sort them to their vectors: a fifth of the time.
 #if defined(MANYLIGHTS_STRUCTS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MANYLIGHTS_STRUCTS_INL_H
 #undef MANYLIGHTS_STRUCTS_INL_H
@@ -63,6 +63,7 @@ HWY_INLINE TwoFloats load_pairs(const float* base, const std::uint32_t* words) {
     return {InterleaveLower(d, low, high), InterleaveUpper(d, low, high)};
 #endif
 }
+
 HWY_INLINE FourFloats load_structs(const float* base, const std::uint32_t* words) {
     using namespace hwy::HWY_NAMESPACE;
     const ScalableTag<float> d;

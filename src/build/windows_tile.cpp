@@ -36,7 +36,7 @@ struct RecordLanes {
     Words light, near_bits, far_bits, near_code, far_code;
 };
 
-// Records of tiles that follow each other mostly do, too: what is read next is fetched meanwhile, whatever tile it is of.
+// The records of the next tile mostly follow: what is read next is fetched meanwhile, whatever tile it is of.
 constexpr std::size_t kAhead = 1024;
 
 HWY_INLINE RecordLanes load_records(const TileRecord* records) {
