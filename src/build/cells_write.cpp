@@ -13,6 +13,11 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace manylights::detail::HWY_NAMESPACE {
+
+// Those of the same instruction set (tree.cpp): none is chosen for each cell anew.
+MlNode* write_trees(const CellLights& lights, std::uint32_t leaf_size, NodeDepths* heap, MlNode* nodes);
+MlNode* write_list(const CellLights& lights, MlNode* nodes);
+
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -91,9 +96,9 @@ void write_nodes(const CellLights& lights, const GridCell& cell, std::uint32_t l
     const bool is_small = count <= kSmallTreeNodes;
     MlNode* const to = is_small ? nodes.room(count) : nodes.direct();
     if (cell.is_tree != 0)
-        write_trees(lights, leaf_size, heap, to);
+        HWY_NAMESPACE::write_trees(lights, leaf_size, heap, to);
     else
-        write_list(lights, to);
+        HWY_NAMESPACE::write_list(lights, to);
     if (is_small)
         nodes.add(count);
     else
