@@ -64,8 +64,8 @@ using References = Stream<MlUint, 1024>;
 using Nodes = Stream<MlNode, 1024>;
 static_assert(kSmallTreeNodes <= 1024);
 
-// Some of a cell's records: their lights to the references, their spans to a cell's.
-void unpack(const CellRecord* records, std::uint32_t all, DepthSpan* spans, References& references) {
+// Some of a cell's records: their lights to the references, their spans to a cell's. Returns the spans' end.
+HWY_INLINE DepthSpan* unpack(const CellRecord* records, std::uint32_t all, DepthSpan* spans, References& references) {
     constexpr std::uint32_t kTogether = 512;
     for (std::uint32_t begin = 0; begin < all; begin += kTogether) {
         const std::uint32_t count = HWY_MIN(all - begin, kTogether);
@@ -78,15 +78,24 @@ void unpack(const CellRecord* records, std::uint32_t all, DepthSpan* spans, Refe
         }
         references.add(count);
     }
+    return spans + all;
+}
+
+HWY_NOINLINE DepthSpan* unpack_chunks(const CellPool& pool, std::uint64_t cell, DepthSpan* spans,
+                                      References& references) {
+    visit_chunks(pool, cell, [&](const CellRecord* records, std::uint32_t count) HWY_ATTR {
+        spans = unpack(records, count, spans, references);
+    });
+    return spans;
 }
 
 // The spans of a cell's lights; its references are written by the way.
 HWY_INLINE void unpack_cell(const Cells& cells, std::uint64_t cell, DepthSpan* spans, References& references) {
     for (std::size_t task = 0; task < cells.pools.size(); ++task) {
-        visit_list(cells.pools[task], cell, [&](const CellRecord* records, std::uint32_t count) HWY_ATTR {
-            unpack(records, count, spans, references);
-            spans += count;
-        });
+        const CellPool& pool = cells.pools[task];
+        const HomeItems<CellRecord> home = items_at_home(pool, cell);
+        spans = unpack(home.items, home.count, spans, references);
+        if (HWY_UNLIKELY(!home.is_all)) spans = unpack_chunks(pool, cell, spans, references);
     }
 }
 
@@ -151,7 +160,11 @@ void write_cell_blocks(ManylightsBuilder& builder, std::uint32_t task, std::uint
                        const ManylightsBuffers& buffers) {
     const Cells& cells = builder.cells;
     Writer writer(builder, task, cells.blocks[begin], buffers);
+    const auto view_end = [&](std::uint32_t v) {
+        return builder.grids[v].cell_offset() + builder.grids[v].cell_count();
+    };
     std::uint32_t view = 0;
+    std::uint64_t end_of_view = view_end(view);
     for (std::uint64_t b = begin; b < end; ++b) {
         const std::uint64_t first = b * kBlockCells;
         const std::uint64_t last = std::min<std::uint64_t>(first + kBlockCells, cells.cells.size());
@@ -160,7 +173,7 @@ void write_cell_blocks(ManylightsBuilder& builder, std::uint32_t task, std::uint
             continue;
         }
         for (std::uint64_t c = first; c < last; ++c) {
-            while (c >= builder.grids[view].cell_offset() + builder.grids[view].cell_count()) ++view;
+            while (c >= end_of_view) end_of_view = view_end(++view);
             writer.write(c, cells.codes[view]);
         }
     }

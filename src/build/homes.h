@@ -71,16 +71,26 @@ std::uint32_t open_chunk(HomePool<Item, Cursor, kChunk>& pool, std::uint32_t lis
     return begin;
 }
 
-// Calls visit(items, count) for what a list holds, in order.
-template <typename Item, typename Cursor, std::uint32_t kChunk, typename Visit>
-void visit_list(const HomePool<Item, Cursor, kChunk>& pool, std::uint64_t list, const Visit& visit) {
+// What a list holds at home: where, and how many.
+template <typename Item>
+struct HomeItems {
+    const Item* items;
+    std::uint32_t count;
+    bool is_all; // nothing of it is in chunks
+};
+template <typename Item, typename Cursor, std::uint32_t kChunk>
+HomeItems<Item> items_at_home(const HomePool<Item, Cursor, kChunk>& pool, std::uint64_t list) {
     const Cursor& cursor = pool.cursors[list];
     const std::uint32_t home = pool.homes[list];
     const std::uint32_t home_end = pool.homes[list + 1];
-    const bool is_at_home = cursor.limit == home_end;
-    const std::uint32_t end = is_at_home ? cursor.next : home_end;
-    if (end != home) visit(pool.items + home, end - home);
-    if (is_at_home) return;
+    const bool is_all = cursor.limit == home_end;
+    return {pool.items + home, (is_all ? cursor.next : home_end) - home, is_all};
+}
+
+// Calls visit(items, count) for what a list that has chunks holds in these, in order.
+template <typename Item, typename Cursor, std::uint32_t kChunk, typename Visit>
+void visit_chunks(const HomePool<Item, Cursor, kChunk>& pool, std::uint64_t list, const Visit& visit) {
+    const Cursor& cursor = pool.cursors[list];
     for (std::uint32_t chunk = pool.firsts[list];; chunk = pool.next[chunk]) {
         const std::uint32_t begin = pool.chunks + chunk * kChunk;
         const bool is_last = begin + kChunk == cursor.limit;
@@ -89,10 +99,19 @@ void visit_list(const HomePool<Item, Cursor, kChunk>& pool, std::uint64_t list, 
     }
 }
 
+// Calls visit(items, count) for all that a list holds, in order.
+template <typename Item, typename Cursor, std::uint32_t kChunk, typename Visit>
+void visit_list(const HomePool<Item, Cursor, kChunk>& pool, std::uint64_t list, const Visit& visit) {
+    const HomeItems<Item> home = items_at_home(pool, list);
+    if (home.count != 0) visit(home.items, home.count);
+    if (!home.is_all) visit_chunks(pool, list, visit);
+}
+
 template <typename Item, typename Cursor, std::uint32_t kChunk>
 std::uint32_t list_length(const HomePool<Item, Cursor, kChunk>& pool, std::uint64_t list) {
-    std::uint32_t length = 0;
-    visit_list(pool, list, [&](const Item*, std::uint32_t count) { length += count; });
+    const HomeItems<Item> home = items_at_home(pool, list);
+    std::uint32_t length = home.count;
+    if (!home.is_all) visit_chunks(pool, list, [&](const Item*, std::uint32_t count) { length += count; });
     return length;
 }
 
