@@ -4,12 +4,15 @@
 #include "src/format/layout.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace manylights::detail {
 
 namespace {
 
 constexpr std::uint32_t kExtentBits = 25; // 0 to 24 of them
+
+int width_of(std::uint32_t value) { return static_cast<int>(std::bit_width(value)); }
 
 // Two classes: the ranges of fewer than small_bits bits, and the others; or one class, and large_count is 0.
 struct Classes {
@@ -39,8 +42,9 @@ Classes choose_classes(const Extents& extents) {
     const Classes together = split_at(extents, kExtentBits);
     const std::uint64_t depth = extents.last_code - extents.base_code + 1;
     Classes best = together;
-    for (std::uint32_t bits = 0; bits < kExtentBits; ++bits) {
-        if (extents.counts[bits] == (bits != 0 ? extents.counts[bits - 1] : 0)) continue; // the same split again
+    const auto first_bits = static_cast<std::uint32_t>(std::bit_width(extents.least)); // none is below fewer
+    for (std::uint32_t bits = first_bits; bits < kExtentBits; ++bits) {
+        if (bits > first_bits && extents.counts[bits] == extents.counts[bits - 1]) continue; // the same split again
         const Classes split = split_at(extents, bits);
         if (split.large_count == 0) break;
         if (checks_of(split) < checks_of(best)) best = split;
@@ -50,9 +54,9 @@ Classes choose_classes(const Extents& extents) {
 
 // Slices are a power of two wide, the least such that there are at most most_slices of them.
 std::uint32_t slice_shift_for(std::uint32_t depth_span, std::uint32_t most_slices) {
-    std::uint32_t shift = 0;
+    int shift = std::max(width_of(depth_span) - width_of(most_slices), 0); // with less there are twice as many
     while ((depth_span >> shift) >= most_slices) ++shift;
-    return shift;
+    return static_cast<std::uint32_t>(shift);
 }
 
 // At most 256 slices, 3/2 of the references, and no finer than a sixth of the small references' extent; a power of two
@@ -67,9 +71,10 @@ std::uint32_t most_slices(const Classes& classes, std::uint32_t count, std::uint
 // The units that a class's depths are kept in: the finest in which no reference of a window is taken for one that holds
 // a depth 256 units off. From a depth, near ends lie up to a slice farther and up to an extent and a slice nearer.
 std::uint32_t reference_shift(std::uint32_t extent, std::uint32_t slice_shift) {
-    std::uint32_t shift = 0;
-    while ((extent >> shift) + 1 + ((2u << slice_shift) >> shift) > 255) ++shift;
-    return shift;
+    const std::uint32_t slices = 2u << slice_shift;
+    int shift = std::max(width_of(extent | slices) - 8, 0); // with less, one of them is 256 or more
+    while ((extent >> shift) + 1 + (slices >> shift) > 255) ++shift;
+    return static_cast<std::uint32_t>(shift);
 }
 
 MlTileForm one_slice(const Extents& extents, const Classes& together, std::uint32_t count) {
@@ -83,13 +88,16 @@ MlTileForm one_slice(const Extents& extents, const Classes& together, std::uint3
 }
 
 MlTileForm choose_form(const Extents& extents, std::uint32_t count, Classes& classes) {
+    classes = split_at(extents, kExtentBits);
+    if (count <= kFlatReferences) return one_slice(extents, classes, count);
+    const Classes together = classes;
     classes = choose_classes(extents);
     const std::uint32_t span = extents.last_code - extents.base_code;
     const std::uint32_t most = most_slices(classes, count, std::uint64_t{span} + 1);
     const std::uint32_t shift = slice_shift_for(span, std::max(most, 1u));
     const std::uint32_t last_slice = span >> shift;
-    if (count <= kFlatReferences || last_slice < 2) {
-        classes = split_at(extents, kExtentBits);
+    if (last_slice < 2) {
+        classes = together;
         return one_slice(extents, classes, count);
     }
     MlTileForm form{};
