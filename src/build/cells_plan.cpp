@@ -40,8 +40,7 @@ std::uint64_t add_cells(const CellPool pool, bool is_first, std::uint64_t begin,
     std::uint64_t all = 0;
     for (std::uint64_t c = begin; c < end; ++c) {
         const CellCursor& cursor = pool.cursors[c];
-        const auto home = items_at_home(pool, c);
-        const std::uint32_t count = home.is_all ? home.count : list_length(pool, c);
+        const std::uint32_t count = list_length(pool, c);
         CellSum& sum = sums[c - begin];
         sum = {(is_first ? 0 : sum.count) + count, (is_first ? 0 : sum.extents) + cursor.extent_sum};
         counts[c] = count;

@@ -1,7 +1,7 @@
 // Vectors from structures of two or four words that lie anywhere: included once per instruction set, see lanes.h.
 //
-// A processor's gather takes about two cycles per lane and field (AMD Zen 3: 17 for eight lanes). A structure's fields
-// lie side by side, so one load gets them all, and a few shuffles sort them to their vectors: a fifth of the time.
+// A processor's gather takes a cycle or two per lane and field (AMD Zen 3). A structure's fields lie side by side, so
+// one load gets them all, and a few shuffles sort them to their vectors: a quarter of the time of four gathers.
 #if defined(MANYLIGHTS_STRUCTS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MANYLIGHTS_STRUCTS_INL_H
 #undef MANYLIGHTS_STRUCTS_INL_H

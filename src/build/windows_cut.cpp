@@ -42,7 +42,7 @@ Classes choose_classes(const Extents& extents) {
     const Classes together = split_at(extents, kExtentBits);
     const std::uint64_t depth = extents.last_code - extents.base_code + 1;
     Classes best = together;
-    const auto first_bits = static_cast<std::uint32_t>(std::bit_width(extents.least)); // none is below fewer
+    const auto first_bits = static_cast<std::uint32_t>(width_of(extents.least)); // none is below fewer
     for (std::uint32_t bits = first_bits; bits < kExtentBits; ++bits) {
         if (bits > first_bits && extents.counts[bits] == extents.counts[bits - 1]) continue; // the same split again
         const Classes split = split_at(extents, bits);
@@ -90,14 +90,13 @@ MlTileForm one_slice(const Extents& extents, const Classes& together, std::uint3
 MlTileForm choose_form(const Extents& extents, std::uint32_t count, Classes& classes) {
     classes = split_at(extents, kExtentBits);
     if (count <= kFlatReferences) return one_slice(extents, classes, count);
-    const Classes together = classes;
     classes = choose_classes(extents);
     const std::uint32_t span = extents.last_code - extents.base_code;
     const std::uint32_t most = most_slices(classes, count, std::uint64_t{span} + 1);
     const std::uint32_t shift = slice_shift_for(span, std::max(most, 1u));
     const std::uint32_t last_slice = span >> shift;
     if (last_slice < 2) {
-        classes = together;
+        classes = split_at(extents, kExtentBits);
         return one_slice(extents, classes, count);
     }
     MlTileForm form{};
